@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "modeler/csg_tree.hh"
+#include "modeler/primitive.hh"
+#include "volmesh/projector.hh"
+
+namespace maille::modeler {
+
+/// Which geometry a round solid of the model language has.
+enum class Facets : std::uint8_t {
+    automatic,  ///< facets where 3 <= $fn <= 8, round elsewhere
+    keep,       ///< the polyhedron that OpenSCAD would make
+    round       ///< always round
+};
+
+/// A constructive solid: primitives, and the tree that combines them.
+struct Model {
+    std::vector<Primitive> primitives;
+    CsgTree tree;
+};
+
+/// A smooth surface of the model: a face of one of its primitives.
+struct ModelSurface {
+    std::uint32_t primitive;
+    std::uint32_t face;
+    std::string name;  ///< "<primitive>/<face>": the face set of the boundary faces that lie on it
+};
+
+/// All surfaces of the model, primitive by primitive, face by face. The position in this list is the number of the
+/// surface everywhere in the modeler.
+std::vector<ModelSurface> surfaces(const Model& model);
+
+/// Faces between two regions of the mesh lie on a surface too, but are no part of its boundary: their face set has
+/// the surface's name with this after it.
+inline constexpr std::string_view inner_suffix = "/inner";
+
+/// Reads a model file (.csg: OpenSCAD's dump, and the language's own additions).
+/// Throws InputError with file, line and column on anything that it cannot use.
+Model read_model(const std::filesystem::path& path, Facets facets = Facets::automatic);
+
+/// The same from memory; `name` stands for the file in messages.
+Model parse_model(std::string_view text, const std::string& name, Facets facets = Facets::automatic);
+
+/// The model's surfaces as a mesh asks for them. It holds the shapes, and outlives the model.
+/// The names are those of `surfaces(model)` followed by the same with `inner_suffix`.
+volmesh::Projector projector(const Model& model);
+
+}  // namespace maille::modeler
