@@ -1,0 +1,206 @@
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include "volmesh/handles.hh"
+
+namespace maille::volmesh {
+
+/// How the value of a property passes to what an edge split a-b -> a-m-b creates.
+enum class PropertyRule : std::uint8_t {
+    none,         ///< what is new gets the default value
+    copy,         ///< children get the parent's value; a new vertex gets that of its end with the lower index
+    interpolate,  ///< vertices: linear between a and b
+    share         ///< cells, faces, edges: an extensive quantity, split by volume, area or length, its sum conserved
+};
+
+/// The rule of a property: one of the above or functions of the user's.
+template <class T>
+struct PropertyHeritage {
+    PropertyRule rule = PropertyRule::copy;
+    /// Vertices: value at m = (1 - ratio) a + ratio b.
+    std::function<T(const T& at_a, const T& at_b, double ratio)> at_vertex{};
+    /// Cells, faces, edges: values of the children that keep a and b; `ratio` is the part that the first one takes.
+    std::function<std::pair<T, T>(const T& parent, double ratio)> at_children{};
+
+    PropertyHeritage() = default;
+    PropertyHeritage(PropertyRule r) : rule(r) {}  // NOLINT: a rule is a heritage
+};
+
+/// Values of one property, by entity index: the part that the mesh works with whatever the type.
+class BaseProperty {
+  public:
+    explicit BaseProperty(std::string name) : name_(std::move(name)) {}
+    virtual ~BaseProperty() = default;
+    BaseProperty& operator=(const BaseProperty&) = delete;
+
+    const std::string& name() const { return name_; }
+    virtual const std::type_info& type() const = 0;
+    virtual std::unique_ptr<BaseProperty> clone() const = 0;
+    virtual std::size_t size() const = 0;
+    virtual void resize(std::size_t n) = 0;
+    /// A vertex at the end, born between a and b.
+    virtual void push_between(std::uint32_t a, std::uint32_t b, double ratio) = 0;
+    /// An entity at the end, the second child of `parent`, which becomes the first child.
+    virtual void push_child(std::uint32_t parent, double ratio) = 0;
+    /// Keeps the values at these old indices, in this order.
+    virtual void gather(const std::vector<std::uint32_t>& old_indices) = 0;
+
+  protected:
+    BaseProperty(const BaseProperty&) = default;
+
+  private:
+    std::string name_;
+};
+
+template <class T>
+class Property final : public BaseProperty {
+  public:
+    // std::vector<bool> has no references.
+    using Stored = std::conditional_t<std::same_as<T, bool>, std::uint8_t, T>;
+
+    Property(std::string name, PropertyHeritage<T> heritage, T default_value)
+        : BaseProperty(std::move(name)), heritage_(std::move(heritage)), default_(std::move(default_value)) {}
+
+    Stored& operator[](std::uint32_t i) { return values_[i]; }
+    const Stored& operator[](std::uint32_t i) const { return values_[i]; }
+    std::vector<Stored>& values() { return values_; }
+    const std::vector<Stored>& values() const { return values_; }
+    const PropertyHeritage<T>& heritage() const { return heritage_; }
+
+    const std::type_info& type() const override { return typeid(T); }
+    std::unique_ptr<BaseProperty> clone() const override { return std::unique_ptr<BaseProperty>(new Property(*this)); }
+    std::size_t size() const override { return values_.size(); }
+    void resize(std::size_t n) override { values_.resize(n, default_); }
+    void push_between(std::uint32_t a, std::uint32_t b, double ratio) override;
+    void push_child(std::uint32_t parent, double ratio) override;
+    void gather(const std::vector<std::uint32_t>& old_indices) override;
+
+  private:
+    Property(const Property&) = default;
+
+    // Quantities that can be added and scaled by a real number: floating point and Eigen's, not integers.
+    static constexpr bool is_linear = !std::is_integral_v<T> && requires(const T& t) {
+        { t * 0.5 };
+        { T(t * 0.5 + t * 0.5) };
+    };
+
+    PropertyHeritage<T> heritage_;
+    Stored default_;
+    std::vector<Stored> values_;
+};
+
+template <class T>
+void Property<T>::push_between(std::uint32_t a, std::uint32_t b, double ratio) {
+    Stored value = default_;
+    if (heritage_.at_vertex) {
+        value = heritage_.at_vertex(values_[a], values_[b], ratio);
+    } else if (heritage_.rule == PropertyRule::copy) {
+        value = values_[std::min(a, b)];
+    } else if (heritage_.rule == PropertyRule::interpolate) {
+        if constexpr (is_linear) value = static_cast<T>(values_[a] * (1 - ratio) + values_[b] * ratio);
+    }
+    values_.push_back(std::move(value));
+}
+
+template <class T>
+void Property<T>::push_child(std::uint32_t parent, double ratio) {
+    Stored first = default_;
+    Stored second = default_;
+    if (heritage_.at_children) {
+        std::tie(first, second) = heritage_.at_children(values_[parent], ratio);
+    } else if (heritage_.rule == PropertyRule::copy) {
+        first = second = values_[parent];
+    } else if (heritage_.rule == PropertyRule::share) {
+        if constexpr (is_linear) {
+            first = static_cast<T>(values_[parent] * ratio);
+            second = static_cast<T>(values_[parent] - first);
+        }
+    }
+    values_[parent] = std::move(first);
+    values_.push_back(std::move(second));
+}
+
+template <class T>
+void Property<T>::gather(const std::vector<std::uint32_t>& old_indices) {
+    std::vector<Stored> kept;
+    kept.reserve(old_indices.size());
+    for (std::uint32_t old : old_indices) kept.push_back(values_[old]);
+    values_ = std::move(kept);
+}
+
+/// Place of a property in its mesh, with the kind of entity and the type of value.
+template <class Entity, class T>
+class PropertyHandle : public Handle<PropertyHandle<Entity, T>> {
+  public:
+    using Handle<PropertyHandle<Entity, T>>::Handle;
+    using Value = T;
+};
+template <class T>
+using VPropHandleT = PropertyHandle<VertexHandle, T>;
+template <class T>
+using EPropHandleT = PropertyHandle<EdgeHandle, T>;
+template <class T>
+using FPropHandleT = PropertyHandle<FaceHandle, T>;
+template <class T>
+using CPropHandleT = PropertyHandle<CellHandle, T>;
+
+/// A property that can be indexed by handles of its own kind only. Valid until the property is removed.
+template <class Entity, class T>
+class PropertyView {
+  public:
+    explicit PropertyView(Property<T>& values) : values_(&values) {}
+    typename Property<T>::Stored& operator[](Entity h) const { return (*values_)[h.idx()]; }
+
+  private:
+    Property<T>* values_;
+};
+template <class T>
+using VProp = PropertyView<VertexHandle, T>;
+template <class T>
+using EProp = PropertyView<EdgeHandle, T>;
+template <class T>
+using FProp = PropertyView<FaceHandle, T>;
+template <class T>
+using CProp = PropertyView<CellHandle, T>;
+
+/// All properties of one kind of entity. Copies deeply.
+class PropertyList {
+  public:
+    PropertyList() = default;
+    PropertyList(const PropertyList& other);
+    PropertyList& operator=(const PropertyList& other);
+    PropertyList(PropertyList&&) noexcept = default;
+    PropertyList& operator=(PropertyList&&) noexcept = default;
+    ~PropertyList() = default;
+
+    /// Index of the property; throws std::invalid_argument where the name is taken.
+    std::uint32_t add(std::unique_ptr<BaseProperty> property);
+    void remove(std::uint32_t i);
+    /// Index of the property with this name and type; nothing found: the invalid index.
+    std::uint32_t find(const std::string& name, const std::type_info& type) const;
+    BaseProperty& at(std::uint32_t i) const { return *properties_[i]; }
+    /// Every property, in the order of their making; removed ones are null.
+    const std::vector<std::unique_ptr<BaseProperty>>& all() const { return properties_; }
+    bool empty() const;
+
+    template <class Action>
+    void for_each(const Action& action) {
+        for (auto& property : properties_)
+            if (property) action(*property);
+    }
+
+  private:
+    std::vector<std::unique_ptr<BaseProperty>> properties_;
+};
+
+}  // namespace maille::volmesh
