@@ -18,8 +18,8 @@ struct CsgTree {
 
 /// The primitive that owns a place, or nothing where the place is outside the solid.
 ///
-/// `inside(i)` says whether the place is in primitive i. In a union or fragment the earliest child that holds the
-/// place owns it; in an intersection or difference the first child does.
+/// `inside(i)` says whether the place is in primitive i. In a union or fragment the earliest child that holds
+/// the place owns it; in an intersection or difference the first child does.
 template <std::predicate<std::uint32_t> Inside>
 std::optional<std::uint32_t> owner(const CsgTree& tree, const Inside& inside) {
     switch (tree.operation) {

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace maille::modeler {
 
@@ -20,9 +21,9 @@ struct Facet {
     bool frozen = false;    ///< a face of elements that are kept: not to be split, moved or removed
 };
 
-/// A conforming complex of facets that bounds every region: the interface between the arrangement, the surface
-/// remesher and the tetrahedral mesher. It need not be manifold. No facet has equal regions on both sides,
-/// except a frozen one.
+/// A conforming complex of facets that bounds every region: the interface between the arrangement, the
+/// surface remesher and the tetrahedral mesher. It need not be manifold. No facet has equal regions on both
+/// sides, except a frozen one.
 struct FacetComplex {
     std::vector<Eigen::Vector3d> points;
     std::vector<Facet> facets;

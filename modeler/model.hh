@@ -32,12 +32,12 @@ struct ModelSurface {
     std::string name;  ///< "<primitive>/<face>": the face set of the boundary faces that lie on it
 };
 
-/// All surfaces of the model, primitive by primitive, face by face. The position in this list is the number of the
-/// surface everywhere in the modeler.
+/// All surfaces of the model, primitive by primitive, face by face. The position in this list is the number
+/// of the surface everywhere in the modeler.
 std::vector<ModelSurface> surfaces(const Model& model);
 
-/// Faces between two regions of the mesh lie on a surface too, but are no part of its boundary: their face set has
-/// the surface's name with this after it.
+/// Faces between two regions of the mesh lie on a surface too, but are no part of its boundary: their face
+/// set has the surface's name with this after it.
 inline constexpr std::string_view inner_suffix = "/inner";
 
 /// Reads a model file (.csg: OpenSCAD's dump, and the language's own additions).

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 namespace maille::modeler {
 
@@ -26,7 +27,8 @@ class Shape {
     virtual std::span<const PrimitiveFace> faces() const = 0;
     virtual Eigen::AlignedBox3d bounding_box() const = 0;
 
-    /// Negative inside, zero on the boundary, positive outside; grows about as the distance does near the boundary.
+    /// Negative inside, zero on the boundary, positive outside; grows about as the distance does near the
+    /// boundary.
     virtual double implicit(const Point& p) const = 0;
 
     /// The same for the one unbounded surface that carries the face: zero exactly on the surface.
@@ -35,7 +37,11 @@ class Shape {
     virtual Point face_normal(std::uint32_t face, const Point& p) const = 0;
     /// The point nearest to p on the unbounded surface that carries the face.
     virtual Point project(std::uint32_t face, const Point& p) const = 0;
-    /// The largest curvature (one over a radius) of the face; 0 where it is planar.
+    /// How that normal turns along the surface, at the same point: the symmetric matrix dn/dx, whose
+    /// eigenvalues are the principal curvatures (positive where the solid bulges) and, along the normal, 0.
+    virtual Eigen::Matrix3d face_curvature(std::uint32_t face, const Point& p) const = 0;
+    /// The largest curvature (one over a radius) of the face; 0 where it is planar. The apex of a cone does
+    /// not count: there it is the curvature of the rim.
     virtual double max_curvature(std::uint32_t face) const = 0;
 
     bool contains(const Point& p) const { return implicit(p) <= 0; }
