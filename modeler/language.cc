@@ -1,0 +1,261 @@
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "modeler/arguments.hh"
+#include "modeler/language_solids.hh"
+#include "modeler/language_transforms.hh"
+#include "modeler/model.hh"
+#include "modeler/shapes.hh"
+#include "modeler/tree_building.hh"
+
+namespace maille::modeler {
+namespace {
+
+constexpr std::pair<std::string_view, Operation> operations[] = {
+    {"union", Operation::join},
+    {"group", Operation::join},
+    {"color", Operation::join},
+    {"render", Operation::join},
+    {"fragment", Operation::fragment},
+    {"difference", Operation::difference},
+    {"intersection", Operation::intersection},
+};
+
+constexpr std::string_view attributes[] = {"name", "size", "material"};
+
+/// Nodes of OpenSCAD's dumps that make or use what this language has not.
+constexpr std::string_view unsupported[] = {
+    "linear_extrude", "rotate_extrude", "circle",     "square",    "polygon",
+    "text",           "import",         "surface",    "minkowski", "hull",
+    "offset",         "resize",         "projection", "roof",      "intersection_for",
+};
+
+/// Words of OpenSCAD's full language, which its dumps no longer hold.
+constexpr std::string_view full_language[] = {"module", "function", "for",      "if",  "else",    "let",
+                                              "assert", "echo",     "children", "use", "include", "each"};
+
+const Operation* find_operation(std::string_view name) {
+    const auto found = std::ranges::find(operations, name, [](const auto& entry) { return entry.first; });
+    return found == std::end(operations) ? nullptr : &found->second;
+}
+
+bool is_one_of(std::string_view name, std::span<const std::string_view> names) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+/// What a node inherits from those around it.
+struct Context {
+    Placement placement;
+    std::string name;
+    std::string material;
+    double size = 0;
+};
+
+/// A half-space cannot take its shape before the size of everything else is known.
+struct PendingHalfspace {
+    std::uint32_t primitive;
+    Location at;
+    Point point;
+    Point normal;
+};
+
+/// Turns the nodes of one file into a model.
+class ModelMaker {
+  public:
+    explicit ModelMaker(const std::string& file) : file_(file) {}
+
+    Model make(const std::vector<Node>& nodes, Facets facets) {
+        const Context context{.placement = {.facets = facets}, .name = {}, .material = {}};
+        const Node* root = find_root(nodes);
+        model_.tree =
+            root != nullptr ? tree_of(*root, context) : combine(Operation::join, trees_of(nodes, context));
+        if (is_empty(model_.tree))
+            throw InputError(fmt::format("{}: the model is empty: it has no solid", file_));
+        shape_halfspaces();
+        drop_unused_primitives(model_);
+        return std::move(model_);
+    }
+
+  private:
+    static const Node* find_root(const std::vector<Node>& nodes) {
+        for (const Node& node : nodes) {
+            if (node.ignored) continue;
+            if (node.is_root) return &node;
+            if (const Node* root = find_root(node.children)) return root;
+        }
+        return nullptr;
+    }
+
+    std::vector<CsgTree> trees_of(const std::vector<Node>& nodes, const Context& context) {
+        std::vector<CsgTree> trees;
+        for (const Node& node : nodes)
+            if (!node.ignored) trees.push_back(tree_of(node, context));
+        return trees;
+    }
+
+    CsgTree tree_of(const Node& node, const Context& context) {
+        if (const SolidMaker make_shape = find_solid(node.name)) {
+            refuse_children(node);
+            return add_primitive(node, context, make_shape(node, file_, context.placement));
+        }
+        if (node.name == "halfspace") return add_halfspace(node, context);
+        if (const TransformReader read = find_transform(node.name))
+            return combine(Operation::join, trees_of(node.children, transformed(node, read, context)));
+        if (is_one_of(node.name, attributes))
+            return combine(Operation::join, trees_of(node.children, with_attribute(node, context)));
+        if (const Operation* operation = find_operation(node.name)) {
+            if (node.name == "color")
+                const Arguments checked(node, file_, {"c", "alpha"});
+            else
+                const Arguments checked(node, file_, {});
+            return combine(*operation, trees_of(node.children, context));
+        }
+        throw unknown(node);
+    }
+
+    void refuse_children(const Node& node) const {
+        if (!node.children.empty())
+            throw located_error(file_, node.children.front().at,
+                                fmt::format("'{}' takes no children: is a ';' missing?", node.name));
+    }
+
+    InputError unknown(const Node& node) const {
+        if (is_one_of(node.name, unsupported))
+            return located_error(file_, node.at, fmt::format("'{}' is not supported", node.name));
+        if (is_one_of(node.name, full_language))
+            return located_error(file_, node.at,
+                                 fmt::format("'{}' is not supported: have OpenSCAD write the .csg file "
+                                             "(openscad -o part.csg part.scad)",
+                                             node.name));
+        std::vector<std::string_view> known = solid_names();
+        known.emplace_back("halfspace");
+        std::ranges::copy(transform_names(), std::back_inserter(known));
+        std::ranges::copy(attributes, std::back_inserter(known));
+        for (const auto& [name, operation] : operations) known.push_back(name);
+        return located_error(file_, node.at,
+                             fmt::format("unknown node '{}'{}", node.name, suggestion(node.name, known)));
+    }
+
+    Context transformed(const Node& node, TransformReader read, const Context& context) const {
+        Context result = context;
+        result.placement.frame = context.placement.frame * read(node, file_);
+        if (!is_regular(result.placement.frame))
+            throw located_error(file_, node.at,
+                                fmt::format("'{}' flattens its children or has no inverse", node.name));
+        return result;
+    }
+
+    Context with_attribute(const Node& node, const Context& context) const {
+        if (node.children.empty())
+            throw located_error(
+                file_, node.at,
+                fmt::format("'{}' stands before no node: is there a ';' too many?", node.name));
+        Context result = context;
+        const Arguments arguments(node, file_, {"value"});
+        if (node.name == "size")
+            result.size = arguments.positive("value");
+        else
+            (node.name == "name" ? result.name : result.material) = checked_name(arguments);
+        return result;
+    }
+
+    /// Names become names of sets, in which a slash parts the primitive from its face.
+    static std::string checked_name(const Arguments& arguments) {
+        const std::string& name = arguments.text("value");
+        const auto bad = [](char c) { return c == '/' || c == '"' || static_cast<unsigned char>(c) < ' '; };
+        if (name.empty()) throw arguments.error("value", "the name must not be empty");
+        if (std::ranges::any_of(name, bad))
+            throw arguments.error("value", "a name must have no slash, no quotes and no line break");
+        return name;
+    }
+
+    CsgTree add_primitive(const Node& node, const Context& context, std::shared_ptr<const Shape> shape) {
+        const auto index = static_cast<std::uint32_t>(model_.primitives.size());
+        model_.primitives.push_back(
+            {.shape = std::move(shape),
+             .name = context.name.empty() ? fmt::format("{}{}", node.name, index + 1) : context.name,
+             .material = context.material,
+             .size = context.size});
+        return {.operation = Operation::leaf, .primitive = index};
+    }
+
+    CsgTree add_halfspace(const Node& node, const Context& context) {
+        refuse_children(node);
+        const Arguments arguments(node, file_, {"point", "normal"});
+        const Point normal = arguments.vector("normal");
+        if (normal.isZero(0)) throw arguments.error("normal", "the normal must not be 0");
+        const Eigen::Affine3d& frame = context.placement.frame;
+        CsgTree leaf = add_primitive(node, context, nullptr);
+        halfspaces_.push_back({.primitive = leaf.primitive,
+                               .at = node.at,
+                               .point = frame * arguments.vector("point"),
+                               .normal = (frame.linear().inverse().transpose() * normal).stableNormalized()});
+        return leaf;
+    }
+
+    /// Gives every half-space the piece of it that covers the bounded solids.
+    void shape_halfspaces() {
+        const auto is_halfspace = [&](std::uint32_t i) { return model_.primitives[i].shape == nullptr; };
+        if (const auto culprit = unbounded_leaf(model_.tree, is_halfspace)) {
+            const auto found = std::ranges::find(halfspaces_, *culprit, &PendingHalfspace::primitive);
+            throw located_error(
+                file_, found->at,
+                "this half-space makes the model endless: intersect it with a solid, or subtract it "
+                "from one");
+        }
+        Eigen::AlignedBox3d box;
+        for (const Primitive& primitive : model_.primitives)
+            if (primitive.shape) box.extend(primitive.shape->bounding_box());
+        for (const PendingHalfspace& halfspace : halfspaces_)
+            model_.primitives[halfspace.primitive].shape = make_halfspace(
+                halfspace.point, halfspace.normal, clip_box(box, halfspace), Eigen::Affine3d::Identity());
+    }
+
+    /// Larger than the box, so that no face of the piece but its plane comes near a solid, and cut by the
+    /// plane.
+    static Eigen::AlignedBox3d clip_box(Eigen::AlignedBox3d box, const PendingHalfspace& halfspace) {
+        const Point center = box.center();
+        const double distance = halfspace.normal.dot(center - halfspace.point);
+        box.extend(Point(center - distance * halfspace.normal));
+        const Point margin = Point::Constant(box.diagonal().norm() / 10);
+        return {box.min() - margin, box.max() + margin};
+    }
+
+    const std::string& file_;
+    Model model_;
+    std::vector<PendingHalfspace> halfspaces_;
+};
+
+}  // namespace
+
+Model parse_model(std::string_view text, const std::string& name, Facets facets) {
+    return ModelMaker(name).make(parse(text, name), facets);
+}
+
+Model read_model(const std::filesystem::path& path, Facets facets) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    if (std::filesystem::is_directory(path) || !file)
+        throw InputError(fmt::format("{}: cannot read this file", path.string()));
+    text << file.rdbuf();
+    return parse_model(text.view(), path.string(), facets);
+}
+
+std::vector<ModelSurface> surfaces(const Model& model) {
+    std::vector<ModelSurface> result;
+    for (std::uint32_t primitive = 0; primitive < model.primitives.size(); ++primitive) {
+        const auto faces = model.primitives[primitive].shape->faces();
+        for (std::uint32_t face = 0; face < faces.size(); ++face)
+            result.push_back(
+                {.primitive = primitive,
+                 .face = face,
+                 .name = fmt::format("{}/{}", model.primitives[primitive].name, faces[face].name)});
+    }
+    return result;
+}
+
+}  // namespace maille::modeler

@@ -1,0 +1,138 @@
+#include "modeler/openscad_facets.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "volmesh/error.hh"
+
+namespace maille::modeler {
+namespace {
+
+double radians(double degrees) {
+    return degrees * std::numbers::pi / 180;
+}
+
+/// Sine of an angle from 0 to 90 degrees.
+double sine_of_acute(double angle) {
+    if (angle == 30) return 0.5;
+    return angle <= 45 ? std::sin(radians(angle)) : std::cos(radians(90 - angle));
+}
+
+/// Counter-clockwise seen from above; returns the number of the first point.
+std::uint32_t add_ring(Polyhedron& solid, double radius, double z, int fragments) {
+    const auto first = static_cast<std::uint32_t>(solid.points.size());
+    for (int i = 0; i < fragments; ++i) {
+        const double angle = 360.0 * i / fragments;
+        solid.points.emplace_back(radius * cos_degrees(angle), radius * sin_degrees(angle), z);
+    }
+    return first;
+}
+
+void add_face(Polyhedron& solid, std::vector<std::uint32_t> corners, const char* name) {
+    solid.faces.push_back(std::move(corners));
+    solid.names.emplace_back(name);
+}
+
+/// The ring itself as a face that looks up, or down.
+void add_cap(Polyhedron& solid, std::uint32_t ring, int fragments, bool looks_up, const char* name) {
+    std::vector<std::uint32_t> corners(static_cast<std::size_t>(fragments));
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = ring + static_cast<std::uint32_t>(i);
+    if (!looks_up) std::ranges::reverse(corners);
+    add_face(solid, std::move(corners), name);
+}
+
+void add_band(Polyhedron& solid, std::uint32_t lower, std::uint32_t upper, int fragments, const char* name) {
+    const auto n = static_cast<std::uint32_t>(fragments);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        add_face(solid, {lower + i, lower + j, upper + j, upper + i}, name);
+    }
+}
+
+/// Triangles from a ring to a point above it, or below it.
+void add_fan(Polyhedron& solid, std::uint32_t ring, double apex_z, bool apex_above, int fragments,
+             const char* name) {
+    const auto apex = static_cast<std::uint32_t>(solid.points.size());
+    solid.points.emplace_back(0, 0, apex_z);
+    const auto n = static_cast<std::uint32_t>(fragments);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        add_face(solid,
+                 apex_above ? std::vector{ring + i, ring + j, apex} : std::vector{ring + j, ring + i, apex},
+                 name);
+    }
+}
+
+}  // namespace
+
+double sin_degrees(double angle) {
+    const double turned = std::fmod(angle, 360.0);
+    const double positive = turned < 0 ? turned + 360 : turned;
+    const double half = positive >= 180 ? positive - 180 : positive;
+    const double sine = sine_of_acute(half > 90 ? 180 - half : half);
+    return positive >= 180 && sine != 0 ? -sine : sine;
+}
+
+double cos_degrees(double angle) {
+    return sin_degrees(angle + 90);
+}
+
+int openscad_fragments(double radius, const FacetSettings& settings) {
+    constexpr double finest_grid = 0.00000095367431640625;
+    constexpr double least_angle_or_length = 0.01;
+    if (radius < finest_grid) return 3;
+    const double by_angle = 360 / std::max(settings.fa, least_angle_or_length);
+    const double by_length = radius * 2 * std::numbers::pi / std::max(settings.fs, least_angle_or_length);
+    const double fragments = settings.fn > 0 ? std::max(std::floor(settings.fn), 3.0)
+                                             : std::ceil(std::max(std::min(by_angle, by_length), 5.0));
+    if (fragments > max_fragments)
+        throw InputError(fmt::format("{} facets around are more than {}: lower $fn, or raise $fa or $fs",
+                                     fragments, max_fragments));
+    return static_cast<int>(fragments);
+}
+
+Polyhedron openscad_sphere(double radius, int fragments) {
+    Polyhedron solid;
+    const int rings = (fragments + 1) / 2;
+    std::uint32_t above = 0;
+    for (int i = 0; i < rings; ++i) {
+        const double polar = 180 * (i + 0.5) / rings;
+        const std::uint32_t ring =
+            add_ring(solid, radius * sin_degrees(polar), radius * cos_degrees(polar), fragments);
+        if (i == 0)
+            add_cap(solid, ring, fragments, true, "surface");
+        else
+            add_band(solid, ring, above, fragments, "surface");
+        above = ring;
+    }
+    add_cap(solid, above, fragments, false, "surface");
+    return solid;
+}
+
+Polyhedron openscad_cylinder(double height, double bottom_radius, double top_radius, bool center,
+                             int fragments) {
+    Polyhedron solid;
+    const double bottom_z = center ? -height / 2 : 0;
+    const double top_z = center ? height / 2 : height;
+    if (bottom_radius > 0) {
+        const std::uint32_t bottom = add_ring(solid, bottom_radius, bottom_z, fragments);
+        if (top_radius > 0) {
+            const std::uint32_t top = add_ring(solid, top_radius, top_z, fragments);
+            add_band(solid, bottom, top, fragments, "side");
+            add_cap(solid, top, fragments, true, "top");
+        } else {
+            add_fan(solid, bottom, top_z, true, fragments, "side");
+        }
+        add_cap(solid, bottom, fragments, false, "bottom");
+    } else {
+        const std::uint32_t top = add_ring(solid, top_radius, top_z, fragments);
+        add_fan(solid, top, bottom_z, false, fragments, "side");
+        add_cap(solid, top, fragments, true, "top");
+    }
+    return solid;
+}
+
+}  // namespace maille::modeler
