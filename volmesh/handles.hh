@@ -42,5 +42,7 @@ using SetHandle = Handle<struct SetKind>;
 
 template <class Kind>
 struct std::hash<maille::volmesh::Handle<Kind>> {
-    std::size_t operator()(maille::volmesh::Handle<Kind> h) const noexcept { return std::hash<std::uint32_t>{}(h.idx()); }
+    std::size_t operator()(maille::volmesh::Handle<Kind> h) const noexcept {
+        return std::hash<std::uint32_t>{}(h.idx());
+    }
 };

@@ -20,15 +20,15 @@ enum class EntityKind : std::uint8_t { vertex, edge, face, cell };
 
 /// How a named set passes to what an edge split a-b -> a-m-b creates.
 ///
-/// Cell, edge and face sets: `copy` (the children of a member are members: the default) or `none`. Entities that the
-/// split creates inside others, with no parent of their own kind, are in no set.
-/// Vertex sets: `none` (a point load stays a point load: the default), `both_ends`, `from_edges`, `from_faces`.
-/// Every kind: `custom`.
+/// Cell, edge and face sets: `copy` (the children of a member are members: the default) or `none`. Entities
+/// that the split creates inside others, with no parent of their own kind, are in no set. Vertex sets: `none`
+/// (a point load stays a point load: the default), `both_ends`, `from_edges`, `from_faces`. Every kind:
+/// `custom`.
 struct SetRule {
     enum class Kind : std::uint8_t { copy, none, both_ends, from_edges, from_faces, custom };
 
-    /// Whether the new entity is a member. `entity` holds its vertices, ascending. For cell, edge and face sets it is
-    /// asked for each child of a member; for vertex sets for each new vertex.
+    /// Whether the new entity is a member. `entity` holds its vertices, ascending. For cell, edge and face
+    /// sets it is asked for each child of a member; for vertex sets for each new vertex.
     using Function = std::function<bool(const TetMesh&, std::span<const VertexHandle> entity, VertexHandle a,
                                         VertexHandle b, VertexHandle m)>;
 
@@ -38,8 +38,8 @@ struct SetRule {
 
     static SetRule copy() { return {Kind::copy, {}, {}}; }
     static SetRule none() { return {Kind::none, {}, {}}; }
-    /// m is a member if a and b are and, where a source is given, the edge a-b lies in it: it is a member of the edge
-    /// set, or an edge of a member of the face set or of the cell set.
+    /// m is a member if a and b are and, where a source is given, the edge a-b lies in it: it is a member of
+    /// the edge set, or an edge of a member of the face set or of the cell set.
     static SetRule both_ends(SetHandle source = {}) { return {Kind::both_ends, source, {}}; }
     /// m is a member if the edge a-b is in that edge set.
     static SetRule from_edges(SetHandle edge_set) { return {Kind::from_edges, edge_set, {}}; }
@@ -59,10 +59,11 @@ using CombinationId = std::uint32_t;
 
 /// The sets of a mesh, and the combinations in which its entities are in them.
 ///
-/// An entity that is in any set holds one number, that of its combination. A cell holds one more, that of its row: the
-/// combinations of the cell, of its four faces and of its six edges, seen from its local numbering. Splitting an edge
-/// of a cell turns its row into two others, which depends on the row and the local edge alone: it is worked out once
-/// and then looked up. So heritage costs a look-up a cell, however many sets there are.
+/// An entity that is in any set holds one number, that of its combination. A cell holds one more, that of its
+/// row: the combinations of the cell, of its four faces and of its six edges, seen from its local numbering.
+/// Splitting an edge of a cell turns its row into two others, which depends on the row and the local edge
+/// alone: it is worked out once and then looked up. So heritage costs a look-up a cell, however many sets
+/// there are.
 class NamedSets {
   public:
     struct Row {
@@ -92,11 +93,14 @@ class NamedSets {
     RowId intern(const Row& row);
     std::uint32_t n_rows() const { return static_cast<std::uint32_t>(rows_.size()); }
 
-    /// Rows of the two children when the local edge is split: of the one that keeps the edge's first end, and of the
-    /// one that keeps its second. Custom rules are taken as `copy` here.
+    /// Rows of the two children when the local edge is split: of the one that keeps the edge's first end, and
+    /// of the one that keeps its second. Custom rules are taken as `copy` here.
     std::pair<RowId, RowId> split(RowId id, int local_edge);
 
-    bool has_custom_rule(EntityKind kind) const { return custom_[static_cast<int>(kind)] > 0; }
+    /// The vertex sets whose rule is from_edges or from_faces of this set.
+    std::span<const SetHandle> born_from(SetHandle source) const { return born_from_[source.idx()]; }
+    /// The sets whose rule is custom.
+    std::span<const SetHandle> custom() const { return custom_; }
 
   private:
     CombinationId inherited(CombinationId id);
@@ -107,9 +111,11 @@ class NamedSets {
     std::map<std::vector<SetHandle>, CombinationId> combination_ids_;
     std::vector<Row> rows_;
     std::map<Row, RowId> row_ids_;
-    /// Children's rows by row, then by local edge; the first number is `unknown_row` where they are not known yet.
+    /// Children's rows by row, then by local edge; the first number is `unknown_row` where they are not known
+    /// yet.
     std::vector<std::array<std::pair<RowId, RowId>, 6>> splits_;
-    std::array<int, 4> custom_{};
+    std::vector<std::vector<SetHandle>> born_from_;  ///< by source set
+    std::vector<SetHandle> custom_;
 };
 
 }  // namespace maille::volmesh

@@ -20,7 +20,7 @@ enum class PropertyRule : std::uint8_t {
     none,         ///< what is new gets the default value
     copy,         ///< children get the parent's value; a new vertex gets that of its end with the lower index
     interpolate,  ///< vertices: linear between a and b
-    share         ///< cells, faces, edges: an extensive quantity, split by volume, area or length, its sum conserved
+    share  ///< cells, faces, edges: an extensive quantity, split by volume, area or length, its sum conserved
 };
 
 /// The rule of a property: one of the above or functions of the user's.
@@ -29,7 +29,8 @@ struct PropertyHeritage {
     PropertyRule rule = PropertyRule::copy;
     /// Vertices: value at m = (1 - ratio) a + ratio b.
     std::function<T(const T& at_a, const T& at_b, double ratio)> at_vertex{};
-    /// Cells, faces, edges: values of the children that keep a and b; `ratio` is the part that the first one takes.
+    /// Cells, faces, edges: values of the children that keep a and b; `ratio` is the part that the first one
+    /// takes.
     std::function<std::pair<T, T>(const T& parent, double ratio)> at_children{};
 
     PropertyHeritage() = default;
@@ -68,6 +69,13 @@ class Property final : public BaseProperty {
     // std::vector<bool> has no references.
     using Stored = std::conditional_t<std::same_as<T, bool>, std::uint8_t, T>;
 
+    /// Whether values can be added and scaled by a real number: floating point and Eigen's types, not
+    /// integers.
+    static constexpr bool is_linear = !std::is_integral_v<T> && requires(const T& t) {
+        {t * 0.5};
+        {T(t * 0.5 + t * 0.5)};
+    };
+
     Property(std::string name, PropertyHeritage<T> heritage, T default_value)
         : BaseProperty(std::move(name)), heritage_(std::move(heritage)), default_(std::move(default_value)) {}
 
@@ -78,7 +86,9 @@ class Property final : public BaseProperty {
     const PropertyHeritage<T>& heritage() const { return heritage_; }
 
     const std::type_info& type() const override { return typeid(T); }
-    std::unique_ptr<BaseProperty> clone() const override { return std::unique_ptr<BaseProperty>(new Property(*this)); }
+    std::unique_ptr<BaseProperty> clone() const override {
+        return std::unique_ptr<BaseProperty>(new Property(*this));
+    }
     std::size_t size() const override { return values_.size(); }
     void resize(std::size_t n) override { values_.resize(n, default_); }
     void push_between(std::uint32_t a, std::uint32_t b, double ratio) override;
@@ -87,12 +97,6 @@ class Property final : public BaseProperty {
 
   private:
     Property(const Property&) = default;
-
-    // Quantities that can be added and scaled by a real number: floating point and Eigen's, not integers.
-    static constexpr bool is_linear = !std::is_integral_v<T> && requires(const T& t) {
-        { t * 0.5 };
-        { T(t * 0.5 + t * 0.5) };
-    };
 
     PropertyHeritage<T> heritage_;
     Stored default_;

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
-#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -10,6 +8,9 @@
 #include <string>
 #include <unordered_map>
 #include <vector>
+
+#include <Eigen/Core>
+#include <boost/container/small_vector.hpp>
 
 #include "volmesh/handles.hh"
 #include "volmesh/named_sets.hh"
@@ -38,10 +39,11 @@ struct IndexMaps {
 
 /// A tetrahedral mesh with properties and named sets. A value: it copies deeply and moves.
 ///
-/// Stored are the cells' vertices, their neighbours across faces, a cell of each vertex and the points: some 40 bytes
-/// a cell. Edges and faces are numbered when they are first asked for by handle (some 55 bytes a cell more); from then
-/// on every edit keeps their numbers. Half-faces are 4 * cell + local face and always there. That first numbering
-/// changes the mesh: before threads share it, call request_edges() or request_faces().
+/// Stored are the cells' vertices, their neighbours across faces, a cell of each vertex and the points: some
+/// 40 bytes a cell. Edges and faces are numbered when they are first asked for by handle (some 55 bytes a
+/// cell more); from then on every edit keeps their numbers. Half-faces are 4 * cell + local face and always
+/// there. That first numbering changes the mesh: before threads share it, call request_edges() or
+/// request_faces().
 ///
 /// Boundaries need not be manifold: cells that touch in a vertex or an edge only are found by every query.
 class TetMesh {
@@ -49,18 +51,20 @@ class TetMesh {
     using Index = std::uint32_t;
     static constexpr Index none = VertexHandle::invalid_index;
 
-    // ---- making -----------------------------------------------------------------------------------------------------
-    /// The mesh of these cells, each four vertex indices, positively oriented: (v1-v0)x(v2-v0).(v3-v0) > 0. Orientation
-    /// is not checked (see validate); throws InputError where an index is out of range, a cell has a vertex twice or
-    /// more than two cells share a face, naming the cells.
+    // ---- making
+    // -----------------------------------------------------------------------------------------------------
+    /// The mesh of these cells, each four vertex indices, positively oriented: (v1-v0)x(v2-v0).(v3-v0) > 0.
+    /// Orientation is not checked (see validate); throws InputError where an index is out of range, a cell
+    /// has a vertex twice or more than two cells share a face, naming the cells.
     static TetMesh from_cells(std::vector<Point> points, std::vector<std::array<Index, 4>> cells);
 
     VertexHandle add_vertex(const Point& p);
-    /// Throws std::invalid_argument, naming what is wrong, where the cell is inverted or flat or one of its faces
-    /// already has two cells, or a cell on that same side.
+    /// Throws std::invalid_argument, naming what is wrong, where the cell is inverted or flat or one of its
+    /// faces already has two cells, or a cell on that same side.
     CellHandle add_cell(VertexHandle v0, VertexHandle v1, VertexHandle v2, VertexHandle v3);
 
-    // ---- counts and ranges ------------------------------------------------------------------------------------------
+    // ---- counts and ranges
+    // ------------------------------------------------------------------------------------------
     /// Numbers of indices in use, deleted entities included until garbage_collection().
     Index n_vertices() const { return static_cast<Index>(points_.size()); }
     Index n_cells() const { return static_cast<Index>(cells_.size()); }
@@ -75,17 +79,20 @@ class TetMesh {
     EntityRange<FaceHandle> faces() const;
     EntityRange<CellHandle> cells() const;
     EntityRange<HalffaceHandle> halffaces() const;
-    /// Half-faces that have no opposite, seen from their cell; their vertices turn counter-clockwise from outside.
+    /// Half-faces that have no opposite, seen from their cell; their vertices turn counter-clockwise from
+    /// outside.
     EntityRange<HalffaceHandle> boundary_halffaces() const;
     EntityRange<FaceHandle> boundary_faces() const;
 
-    // ---- geometry ---------------------------------------------------------------------------------------------------
+    // ---- geometry
+    // ---------------------------------------------------------------------------------------------------
     const Point& point(VertexHandle v) const { return points_[v.idx()]; }
     void set_point(VertexHandle v, const Point& p) { points_[v.idx()] = p; }
     std::span<const Point> points() const { return points_; }
     std::array<Point, 4> cell_points(CellHandle c) const;
 
-    // ---- cells and half-faces ---------------------------------------------------------------------------------------
+    // ---- cells and half-faces
+    // ---------------------------------------------------------------------------------------
     std::array<VertexHandle, 4> cell_vertices(CellHandle c) const;
     VertexHandle cell_vertex(CellHandle c, int local) const { return VertexHandle(cells_[c.idx()][local]); }
     /// The vertices of every cell, by cell index.
@@ -95,7 +102,9 @@ class TetMesh {
     /// Local number of the edge in the cell, -1 where the cell doesn't have both.
     int local_edge(CellHandle c, VertexHandle a, VertexHandle b) const;
 
-    static HalffaceHandle halfface(CellHandle c, int local_face) { return HalffaceHandle(4 * c.idx() + local_face); }
+    static HalffaceHandle halfface(CellHandle c, int local_face) {
+        return HalffaceHandle(4 * c.idx() + local_face);
+    }
     static CellHandle incident_cell(HalffaceHandle hf) { return CellHandle(hf.idx() / 4); }
     static int local_face(HalffaceHandle hf) { return static_cast<int>(hf.idx() % 4); }
     /// The same face seen from the cell on its other side; invalid on the boundary.
@@ -104,8 +113,8 @@ class TetMesh {
     }
     /// Counter-clockwise seen from outside the cell.
     std::array<VertexHandle, 3> halfface_vertices(HalffaceHandle hf) const;
-    /// The half-face of these three vertices that turns as given if there is one, else the other way round; invalid
-    /// where there is no such face.
+    /// The half-face of these three vertices that turns as given if there is one, else the other way round;
+    /// invalid where there is no such face.
     HalffaceHandle find_halfface(VertexHandle a, VertexHandle b, VertexHandle c) const;
     CellHandle find_cell(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d) const;
     bool is_boundary(HalffaceHandle hf) const { return !opposite_halfface_handle(hf).is_valid(); }
@@ -114,7 +123,8 @@ class TetMesh {
     bool is_boundary(EdgeHandle e) const;
     bool is_boundary(FaceHandle f) const { return is_boundary(halfface_handle(f, 0)); }
 
-    // ---- incidence --------------------------------------------------------------------------------------------------
+    // ---- incidence
+    // --------------------------------------------------------------------------------------------------
     /// Cells at a vertex. Cost: their number.
     CellList vc_range(VertexHandle v) const;
     /// Vertices that share an edge with a vertex, ascending.
@@ -122,7 +132,8 @@ class TetMesh {
     EdgeList ve_range(VertexHandle v) const;
     /// Cells round an edge: in turning order, from one boundary face to the other if it has any.
     CellList ec_range(EdgeHandle e) const;
-    /// The same for an edge given by a cell and a local number, or by its ends (empty where there is no such edge).
+    /// The same for an edge given by a cell and a local number, or by its ends (empty where there is no such
+    /// edge).
     CellList cells_around(CellHandle c, int local_edge) const;
     CellList cells_around(VertexHandle a, VertexHandle b) const;
     FaceList ef_range(EdgeHandle e) const;
@@ -130,8 +141,10 @@ class TetMesh {
     boost::container::small_vector<HalffaceHandle, 48> halffaces_around(CellHandle c, int local_edge) const;
     CellList cc_range(CellHandle c) const;
 
-    // ---- edges and faces by handle ----------------------------------------------------------------------------------
-    /// Numbers them now if they aren't; release_* forgets the numbers, which has_* tells. Properties need them.
+    // ---- edges and faces by handle
+    // ----------------------------------------------------------------------------------
+    /// Numbers them now if they aren't; release_* forgets the numbers, which has_* tells. Properties need
+    /// them.
     void request_edges() const;
     void request_faces() const;
     void release_edges();
@@ -143,31 +156,40 @@ class TetMesh {
     FaceHandle face_handle(HalffaceHandle hf) const;
     /// The end with the lower vertex index first.
     std::array<VertexHandle, 2> edge_vertices(EdgeHandle e) const;
-    std::array<VertexHandle, 3> face_vertices(FaceHandle f) const { return halfface_vertices(halfface_handle(f, 0)); }
+    std::array<VertexHandle, 3> face_vertices(FaceHandle f) const {
+        return halfface_vertices(halfface_handle(f, 0));
+    }
     /// One cell of the edge, and the edge's local number there.
     std::pair<CellHandle, int> edge_place(EdgeHandle e) const;
     /// Side 0 always has a cell; side 1 is invalid on the boundary.
     HalffaceHandle halfface_handle(FaceHandle f, int side) const;
     EdgeHandle find_edge(VertexHandle a, VertexHandle b) const;
     FaceHandle find_face(VertexHandle a, VertexHandle b, VertexHandle c) const;
-    HalfedgeHandle halfedge_handle(EdgeHandle e, int side) const { return HalfedgeHandle(2 * e.idx() + side); }
+    HalfedgeHandle halfedge_handle(EdgeHandle e, int side) const {
+        return HalfedgeHandle(2 * e.idx() + side);
+    }
     EdgeHandle edge_handle(HalfedgeHandle h) const { return EdgeHandle(h.idx() / 2); }
     HalfedgeHandle opposite_halfedge_handle(HalfedgeHandle h) const { return HalfedgeHandle(h.idx() ^ 1U); }
-    VertexHandle from_vertex_handle(HalfedgeHandle h) const { return edge_vertices(edge_handle(h))[h.idx() & 1U]; }
-    VertexHandle to_vertex_handle(HalfedgeHandle h) const { return edge_vertices(edge_handle(h))[1 - (h.idx() & 1U)]; }
+    VertexHandle from_vertex_handle(HalfedgeHandle h) const {
+        return edge_vertices(edge_handle(h))[h.idx() & 1U];
+    }
+    VertexHandle to_vertex_handle(HalfedgeHandle h) const {
+        return edge_vertices(edge_handle(h))[1 - (h.idx() & 1U)];
+    }
     EdgeList fe_range(FaceHandle f) const;
 
-    // ---- edits ------------------------------------------------------------------------------------------------------
+    // ---- edits
+    // ------------------------------------------------------------------------------------------------------
     /// Splits the edge, and every cell round it, at a new vertex; `ratio` places it between the edge's ends,
-    /// m = (1 - ratio) a + ratio b, a being the end that comes first in the cell given, and says how extensive
-    /// quantities are shared. Each old cell keeps its index for the child with a; the children with b get new indices
-    /// at the end, in the order of cells_around(). Sets and properties pass on by their rules.
-    /// The point may be moved afterwards (set_point).
+    /// m = (1 - ratio) a + ratio b, a being the end that comes first in the cell given, and says how
+    /// extensive quantities are shared. Each old cell keeps its index for the child with a; the children with
+    /// b get new indices at the end, in the order of cells_around(). Sets and properties pass on by their
+    /// rules. The point may be moved afterwards (set_point).
     VertexHandle split_edge(CellHandle c, int local_edge, double ratio = 0.5);
     /// a is the end with the lower index.
     VertexHandle split_edge(EdgeHandle e, double ratio = 0.5);
-    /// As the first one, for a caller who has the cells round the edge already, as cells_around(c, local_edge) gives
-    /// them.
+    /// As the first one, for a caller who has the cells round the edge already, as cells_around(c,
+    /// local_edge) gives them.
     VertexHandle split_edge(CellHandle c, int local_edge, double ratio, const CellList& ring);
 
     /// Marks it deleted: its neighbours get a boundary; its vertices stay. Its index is free after
@@ -176,7 +198,9 @@ class TetMesh {
     /// Marks the vertices that have no cell as deleted.
     void delete_isolated_vertices();
     bool is_deleted(CellHandle c) const { return !deleted_cells_.empty() && deleted_cells_[c.idx()] != 0; }
-    bool is_deleted(VertexHandle v) const { return !deleted_vertices_.empty() && deleted_vertices_[v.idx()] != 0; }
+    bool is_deleted(VertexHandle v) const {
+        return !deleted_vertices_.empty() && deleted_vertices_[v.idx()] != 0;
+    }
     bool is_deleted(EdgeHandle e) const;
     bool is_deleted(FaceHandle f) const;
     bool is_deleted(HalffaceHandle hf) const { return is_deleted(incident_cell(hf)); }
@@ -193,7 +217,8 @@ class TetMesh {
     /// Takes deleted entities out; the others keep their order. Sets and properties follow.
     IndexMaps garbage_collection();
 
-    // ---- properties -------------------------------------------------------------------------------------------------
+    // ---- properties
+    // -------------------------------------------------------------------------------------------------
     template <class Entity, class T>
     void add_property(PropertyHandle<Entity, T>& ph, const std::string& name,
                       PropertyHeritage<T> heritage = PropertyHeritage<T>{}, T default_value = T{});
@@ -212,8 +237,10 @@ class TetMesh {
     }
     const PropertyList& properties(EntityKind kind) const { return properties_[static_cast<int>(kind)]; }
 
-    // ---- named sets -------------------------------------------------------------------------------------------------
-    /// A new, empty set. Throws std::invalid_argument where the kind has a set of that name or the rule doesn't fit it.
+    // ---- named sets
+    // -------------------------------------------------------------------------------------------------
+    /// A new, empty set. Throws std::invalid_argument where the kind has a set of that name or the rule
+    /// doesn't fit it.
     SetHandle add_set(const std::string& name, EntityKind kind, SetRule rule);
     /// With the kind's default rule: `copy`, and for vertex sets `none`.
     SetHandle add_set(const std::string& name, EntityKind kind);
@@ -246,19 +273,22 @@ class TetMesh {
     void erase(SetHandle s, CellHandle c, int local_edge);
     void erase(SetHandle s, EdgeHandle e);
 
-    /// Members, ascending. Faces by one half-face each, that with the lower index; edges by cell and local number, the
-    /// lowest cell first.
+    /// Members, ascending. Faces by one half-face each, that with the lower index; edges by cell and local
+    /// number, the lowest cell first.
     std::vector<VertexHandle> vertex_members(SetHandle s) const;
     std::vector<CellHandle> cell_members(SetHandle s) const;
     std::vector<HalffaceHandle> face_members(SetHandle s) const;
     std::vector<std::pair<CellHandle, int>> edge_members(SetHandle s) const;
 
-    /// The sets that an entity is in, as an interned number (0: none), and what the number stands for, ascending.
+    /// The sets that an entity is in, as an interned number (0: none), and what the number stands for,
+    /// ascending.
     CombinationId combination(VertexHandle v) const {
         return vertex_combinations_.empty() ? 0 : vertex_combinations_[v.idx()];
     }
     CombinationId combination(CellHandle c) const { return row(c).cell; }
-    CombinationId combination(HalffaceHandle hf) const { return row(incident_cell(hf)).faces[local_face(hf)]; }
+    CombinationId combination(HalffaceHandle hf) const {
+        return row(incident_cell(hf)).faces[local_face(hf)];
+    }
     CombinationId combination(CellHandle c, int local_edge) const { return row(c).edges[local_edge]; }
     std::span<const SetHandle> sets_of(CombinationId id) const { return sets_.combination(id); }
 
@@ -298,13 +328,18 @@ class TetMesh {
     template <class Visit>
     void visit_fan(Index start, Index vertex, const Visit& visit) const;
     void append_ring(CellHandle c, int local_edge, CellList& ring) const;
+    void number_new_cell(CellHandle c);
+    void forget_numbers(CellHandle c);
+    void inherit_sets_from_neighbors(CellHandle c);
 
+    VertexHandle split_between(VertexHandle a, VertexHandle b, double ratio, const CellList& ring);
     void split_cells(const Split& split);
-    void split_numbers(const Split& split);
+    void split_edge_numbers(const Split& split);
+    void split_face_numbers(const Split& split);
     void split_pinches(const Split& split);
     void split_sets(const Split& split);
+    CombinationId born_combination(const Split& split);
     void apply_custom_rules(const Split& split);
-    bool is_born_member(const Split& split, SetHandle set) const;
 
     std::vector<Point> points_;
     std::vector<std::array<Index, 4>> cells_;
@@ -312,8 +347,8 @@ class TetMesh {
     std::vector<Index> vertex_cells_;              ///< a cell of each vertex
     Index n_boundary_ = 0;
 
-    /// Where the boundary isn't manifold: a cell of each further fan of a vertex, and of each fan of an edge (its ends
-    /// packed, the lower one high).
+    /// Where the boundary isn't manifold: a cell of each further fan of a vertex, and of each fan of an edge
+    /// (its ends packed, the lower one high).
     std::unordered_map<Index, std::vector<Index>> vertex_fans_;
     std::unordered_map<std::uint64_t, std::vector<Index>> edge_fans_;
 
@@ -321,7 +356,8 @@ class TetMesh {
     mutable std::optional<FaceNumbers> faces_;
     std::vector<std::uint8_t> deleted_cells_, deleted_vertices_;  ///< empty where nothing is deleted
 
-    mutable std::array<PropertyList, 4> properties_;  ///< by EntityKind; edges' and faces' grow when they are numbered
+    mutable std::array<PropertyList, 4>
+        properties_;  ///< by EntityKind; edges' and faces' grow when they are numbered
     NamedSets sets_;
     std::vector<CombinationId> vertex_combinations_;  ///< empty while no vertex is in a set
     std::vector<NamedSets::RowId> cell_rows_;         ///< empty while no edge, face or cell is in a set

@@ -19,9 +19,12 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 4> edge_between{
     {{6, 0, 1, 2}, {0, 6, 3, 4}, {1, 3, 6, 5}, {2, 4, 5, 6}}};
 
 /// The edges of each local face.
-inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_edges{{{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}}};
+inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_edges{
+    {{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}}};
 
 /// The edge that shares no vertex with the given one.
-constexpr int opposite_edge(int edge) { return 5 - edge; }
+constexpr int opposite_edge(int edge) {
+    return 5 - edge;
+}
 
 }  // namespace maille::volmesh::tet

@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "volmesh/error.hh"
+#include "volmesh/fans.hh"
+#include "volmesh/measure.hh"
+#include "volmesh/tet_mesh.hh"
+
+namespace maille::volmesh {
+
+TetMesh TetMesh::from_cells(std::vector<Point> points, std::vector<std::array<Index, 4>> cells) {
+    if (cells.size() >= none / 8 || points.size() >= none)
+        throw InputError(
+            fmt::format("a mesh of {} cells is too large: at most {} fit", cells.size(), none / 8 - 1));
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        for (int i = 0; i < 4; ++i) {
+            if (cells[c][i] >= points.size())
+                throw InputError(fmt::format("cell {} has vertex {}, but there are only {} vertices", c,
+                                             cells[c][i], points.size()));
+            for (int j = 0; j < i; ++j)
+                if (cells[c][i] == cells[c][j])
+                    throw InputError(fmt::format("cell {} has vertex {} twice", c, cells[c][i]));
+        }
+    TetMesh mesh;
+    mesh.points_ = std::move(points);
+    mesh.cells_ = std::move(cells);
+    mesh.link_neighbors();
+    mesh.find_vertex_cells();
+    mesh.find_pinches();
+    return mesh;
+}
+
+// Faces are brought together by their lowest vertex, in buckets that a counting sort makes; each bucket is
+// small.
+void TetMesh::link_neighbors() {
+    struct Side {
+        Index middle, highest, halfface;
+        auto operator<=>(const Side&) const = default;
+    };
+    const auto sorted_face = [&](Index halfface) {
+        const auto& cell = cells_[halfface / 4];
+        const auto& local = tet::face_vertices[halfface % 4];
+        std::array<Index, 3> v{cell[local[0]], cell[local[1]], cell[local[2]]};
+        std::ranges::sort(v);
+        return v;
+    };
+    std::vector<Index> ends(points_.size() + 1, 0);
+    for (Index hf = 0; hf < n_halffaces(); ++hf) ++ends[sorted_face(hf)[0] + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Side> sides(n_halffaces());
+    std::vector<Index> next(ends.begin(), ends.end() - 1);
+    for (Index hf = 0; hf < n_halffaces(); ++hf) {
+        const auto v = sorted_face(hf);
+        sides[next[v[0]]++] = {v[1], v[2], hf};
+    }
+
+    neighbors_.assign(cells_.size(), {none, none, none, none});
+    n_boundary_ = 0;
+    for (Index v = 0; v < n_vertices(); ++v) {
+        const std::span bucket(sides.begin() + ends[v], sides.begin() + ends[v + 1]);
+        std::ranges::sort(bucket);
+        for (std::size_t i = 0; i < bucket.size();) {
+            std::size_t same = i + 1;
+            while (same < bucket.size() && bucket[same].middle == bucket[i].middle &&
+                   bucket[same].highest == bucket[i].highest)
+                ++same;
+            const Index hf = bucket[i].halfface;
+            if (same - i > 2)
+                throw InputError(
+                    fmt::format("cells {}, {} and {} all have the face of vertices {}, {} and {}", hf / 4,
+                                bucket[i + 1].halfface / 4, bucket[i + 2].halfface / 4, v, bucket[i].middle,
+                                bucket[i].highest));
+            if (same - i == 2) {
+                const Index other = bucket[i + 1].halfface;
+                neighbors_[hf / 4][hf % 4] = other;
+                neighbors_[other / 4][other % 4] = hf;
+            } else {
+                ++n_boundary_;
+            }
+            i = same;
+        }
+    }
+}
+
+void TetMesh::find_vertex_cells() {
+    vertex_cells_.assign(points_.size(), none);
+    for (Index c = n_cells(); c-- > 0;)
+        for (Index v : cells_[c]) vertex_cells_[v] = c;
+}
+
+void TetMesh::find_pinches() {
+    vertex_fans_.clear();
+    edge_fans_.clear();
+
+    // Fans can only part at the boundary. A vertex is pinched where its first fan doesn't hold all its cells;
+    // an edge where more than two boundary faces meet.
+    std::vector<Index> n_cells_at(points_.size(), 0);
+    for (const auto& cell : cells_)
+        for (Index v : cell) ++n_cells_at[v];
+    std::vector<std::uint8_t> on_boundary(points_.size(), 0);
+    std::vector<std::uint64_t> boundary_edges;
+    boundary_edges.reserve(3 * n_boundary_);
+    for (Index hf = 0; hf < n_halffaces(); ++hf) {
+        if (neighbors_[hf / 4][hf % 4] != none || is_deleted(CellHandle(hf / 4))) continue;
+        const auto v = halfface_vertices(HalffaceHandle(hf));
+        for (int i = 0; i < 3; ++i) {
+            on_boundary[v[i].idx()] = 1;
+            boundary_edges.push_back(edge_key(v[i].idx(), v[(i + 1) % 3].idx()));
+        }
+    }
+    std::ranges::sort(boundary_edges);
+    std::map<Index, CellList> pinched_vertices;
+    std::map<std::uint64_t, CellList> pinched_edges;
+    for (Index v = 0; v < n_vertices(); ++v)
+        if (on_boundary[v] && vc_range(VertexHandle(v)).size() != n_cells_at[v]) pinched_vertices[v];
+    for (std::size_t i = 0; i < boundary_edges.size();) {
+        std::size_t same = i + 1;
+        while (same < boundary_edges.size() && boundary_edges[same] == boundary_edges[i]) ++same;
+        if (same - i > 2) pinched_edges[boundary_edges[i]];
+        i = same;
+    }
+    if (pinched_vertices.empty() && pinched_edges.empty()) return;
+
+    for (Index c = 0; c < n_cells(); ++c) {
+        for (Index v : cells_[c])
+            if (const auto at = pinched_vertices.find(v); at != pinched_vertices.end())
+                at->second.push_back(CellHandle(c));
+        for (const auto& [i, j] : tet::edge_vertices)
+            if (const auto at = pinched_edges.find(edge_key(cells_[c][i], cells_[c][j]));
+                at != pinched_edges.end())
+                at->second.push_back(CellHandle(c));
+    }
+    for (const auto& [v, cells] : pinched_vertices) {
+        const VertexHandle hinge(v);
+        auto fans = first_cells_of_fans(*this, cells, {&hinge, 1});
+        vertex_cells_[v] = fans.front();
+        vertex_fans_[v].assign(fans.begin() + 1, fans.end());
+    }
+    for (const auto& [key, cells] : pinched_edges) {
+        const std::array hinge{VertexHandle(static_cast<Index>(key >> 32U)),
+                               VertexHandle(static_cast<Index>(key))};
+        edge_fans_[key] = first_cells_of_fans(*this, cells, hinge);
+    }
+}
+
+// Finds the fans of these vertices, and of the edges between them, anew from the cells at each.
+void TetMesh::repair_fans(std::span<const VertexHandle> vertices, std::span<const CellList> cells_at) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const VertexHandle v = vertices[i];
+        const auto fans = first_cells_of_fans(*this, cells_at[i], {&v, 1});
+        vertex_cells_[v.idx()] = fans.empty() ? none : fans.front();
+        vertex_fans_.erase(v.idx());
+        if (fans.size() > 1) vertex_fans_[v.idx()].assign(fans.begin() + 1, fans.end());
+        for (std::size_t j = 0; j < i; ++j) {
+            CellList common;
+            for (CellHandle c : cells_at[i])
+                if (local_vertex(c, vertices[j]) >= 0) common.push_back(c);
+            const std::array hinge{v, vertices[j]};
+            const std::uint64_t key = edge_key(v.idx(), vertices[j].idx());
+            edge_fans_.erase(key);
+            if (auto edge_fans = first_cells_of_fans(*this, common, hinge); edge_fans.size() > 1)
+                edge_fans_[key] = std::move(edge_fans);
+        }
+    }
+}
+
+VertexHandle TetMesh::add_vertex(const Point& p) {
+    points_.push_back(p);
+    vertex_cells_.push_back(none);
+    if (!deleted_vertices_.empty()) deleted_vertices_.push_back(0);
+    if (!vertex_combinations_.empty()) vertex_combinations_.push_back(0);
+    properties_of(EntityKind::vertex).for_each([&](BaseProperty& property) {
+        property.resize(points_.size());
+    });
+    return VertexHandle(n_vertices() - 1);
+}
+
+CellHandle TetMesh::add_cell(VertexHandle v0, VertexHandle v1, VertexHandle v2, VertexHandle v3) {
+    const std::array vertices{v0, v1, v2, v3};
+    const auto name =
+        fmt::format("cell of vertices {}, {}, {} and {}", v0.idx(), v1.idx(), v2.idx(), v3.idx());
+    for (VertexHandle v : vertices)
+        if (!v.is_valid() || v.idx() >= n_vertices() || is_deleted(v))
+            throw std::invalid_argument(name + ": one of them is not a vertex of the mesh");
+    if (!(tet_volume(point(v0), point(v1), point(v2), point(v3)) > 0))
+        throw std::invalid_argument(name + ": it is flat or inverted; exchange two of its vertices");
+
+    std::array<Index, 4> opposite{};
+    for (int f = 0; f < 4; ++f) {
+        const auto [i, j, k] = tet::face_vertices[f];
+        const HalffaceHandle same = find_halfface(vertices[i], vertices[j], vertices[k]);
+        opposite[f] = none;
+        if (!same.is_valid()) continue;
+        const auto turning = halfface_vertices(same);
+        const auto at = std::ranges::find(turning, vertices[i]) - turning.begin();
+        if (turning[(at + 1) % 3] == vertices[j])
+            throw std::invalid_argument(fmt::format(
+                "{}: it overlaps cell {}, which has a face on the same side", name, same.idx() / 4));
+        if (!is_boundary(same))
+            throw std::invalid_argument(fmt::format("{}: its face opposite vertex {} has two cells already",
+                                                    name, vertices[f].idx()));
+        opposite[f] = same.idx();
+    }
+
+    const CellHandle c(n_cells());
+    std::array<CellList, 4> cells_at;
+    for (int i = 0; i < 4; ++i) {
+        cells_at[i] = vc_range(vertices[i]);
+        cells_at[i].push_back(c);
+    }
+    cells_.push_back({v0.idx(), v1.idx(), v2.idx(), v3.idx()});
+    neighbors_.push_back(opposite);
+    for (int f = 0; f < 4; ++f) {
+        if (opposite[f] != none) neighbors_[opposite[f] / 4][opposite[f] % 4] = halfface(c, f).idx();
+        n_boundary_ += opposite[f] == none ? 1 : -1;
+    }
+    if (!deleted_cells_.empty()) deleted_cells_.push_back(0);
+    if (!cell_rows_.empty()) cell_rows_.push_back(0);
+    properties_of(EntityKind::cell).for_each([&](BaseProperty& property) { property.resize(cells_.size()); });
+    repair_fans(vertices, cells_at);
+    number_new_cell(c);
+    inherit_sets_from_neighbors(c);
+    return c;
+}
+
+}  // namespace maille::volmesh
