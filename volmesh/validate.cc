@@ -1,7 +1,7 @@
 #include "volmesh/validate.hh"
 
 #include <algorithm>
-#include <cmath>
+#include <tuple>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -58,7 +58,9 @@ void check_neighbors(const TetMesh& mesh, Errors& errors) {
     struct Side {
         std::array<std::uint32_t, 3> vertices;
         HalffaceHandle halfface;
-        auto operator<=>(const Side&) const = default;
+        bool operator<(const Side& other) const {
+            return std::tie(vertices, halfface) < std::tie(other.vertices, other.halfface);
+        }
     };
     std::vector<Side> sides;
     for (HalffaceHandle hf : mesh.halffaces()) {
@@ -67,7 +69,7 @@ void check_neighbors(const TetMesh& mesh, Errors& errors) {
         std::ranges::sort(side.vertices);
         sides.push_back(side);
     }
-    std::ranges::sort(sides);
+    std::sort(sides.begin(), sides.end());
     std::size_t n_boundary = 0;
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t same = i + 1;
