@@ -1,7 +1,10 @@
 #pragma once
 
-#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
+// OpenMesh's own traits have to be known before those for Eigen's vectors.
+// clang-format off
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
+// clang-format on
 
 namespace maille::volmesh {
 
