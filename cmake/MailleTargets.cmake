@@ -15,8 +15,6 @@ endif()
 add_library(maille_options INTERFACE)
 target_compile_options(maille_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
-  # g++ 12 cries wolf at Eigen's vectors in OpenMesh's properties.
-  -Wno-maybe-uninitialized
   # Same bytes out on every machine: no fused operations that only some processors have.
   -ffp-contract=off)
 target_include_directories(maille_options INTERFACE ${PROJECT_SOURCE_DIR})

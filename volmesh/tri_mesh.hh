@@ -1,10 +1,7 @@
 #pragma once
 
-// OpenMesh's own traits have to be known before those for Eigen's vectors.
-// clang-format off
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
-// clang-format on
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 namespace maille::volmesh {
 

@@ -1,0 +1,65 @@
+#include "modeler/remesh.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "modeler/remesh_check.hh"
+#include "modeler/remesh_features.hh"
+#include "modeler/remesh_passes.hh"
+
+namespace maille::modeler {
+
+namespace {
+
+using namespace remeshing;
+
+constexpr int smoothing_sweeps = 3;
+constexpr int rounds_with_new_sizes = 3;
+
+double smallest_angle(const Net& net) {
+    double worst = 1;
+    for (Index t = 0; t < net.n_triangles(); ++t)
+        if (net.is_alive(t) && !net.patch(t).frozen) worst = std::min(worst, quality(net.corners(t)));
+    return std::asin(std::min(worst, std::sqrt(0.75))) * 180 / std::numbers::pi;
+}
+
+/// One round of all passes; the number of changes.
+std::size_t work(Session& session) {
+    session.net.rebuild_grid();
+    std::size_t changes = collapse_edges(session);
+    changes += project_vertices(session);
+    changes += split_edges(session);
+    changes += flip_edges(session);
+    changes += snap_to_curves(session);
+    for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) changes += smooth_vertices(session);
+    changes += flip_edges(session);
+    return changes;
+}
+
+}  // namespace
+
+RemeshReport remesh(FacetComplex& complex, const RemeshGeometry& geometry, const RemeshOptions& options) {
+    if (complex.facets.empty()) return {};
+    Session session{make_net(complex, geometry), geometry, options};
+    session.good = std::sin(options.min_angle * std::numbers::pi / 180);
+    session.report.smallest_angle_before = smallest_angle(session.net);
+    const bool was_clear = !has_collision(session.net);
+
+    // Not before the slivers are gone can gaps be told from them.
+    session.net.rebuild_grid();
+    collapse_edges(session);
+    for (int round = 0; round < options.rounds; ++round) {
+        if (round < rounds_with_new_sizes) set_sizes(session);
+        if (work(session) == 0) break;
+    }
+
+    session.report.short_of_surface = count_short_of_surface(session);
+    session.report.smallest_angle_after = smallest_angle(session.net);
+    session.net.rebuild_grid();
+    session.report.rolled_back = was_clear && has_collision(session.net);
+    if (!session.report.rolled_back) complex = make_complex(session.net);
+    return session.report;
+}
+
+}  // namespace maille::modeler

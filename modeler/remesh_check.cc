@@ -1,0 +1,203 @@
+#include "modeler/remesh_check.hh"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "modeler/remesh_exact.hh"
+
+namespace maille::modeler::remeshing {
+
+namespace {
+
+// Cosines between a triangle's normal and that of its surface.
+constexpr double least_agreement_curved = 0.6;
+constexpr double least_agreement_planar = 0.9;
+
+PlacedTriangle placed(const Net& net, Index t) {
+    return {net.triangle(t).vertices, net.corners(t)};
+}
+
+PlacedTriangle placed(const Net& net, const Change& change, const Triangle& triangle) {
+    PlacedTriangle result{triangle.vertices, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Index v = triangle.vertices[i];
+        result.corners[i] = v == change.moved ? change.position : net.point(v);
+    }
+    return result;
+}
+
+/// The area of the triangle if it points another way than its surface, else 0.
+double wrong_area(const Session& session, const Patch& patch, const Corners& corners) {
+    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const double twice_area = normal.norm();
+    const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3;
+    const double along = patch.sense * normal.dot(session.geometry.normal(patch.surface, centroid));
+    const double least = patch.planar ? least_agreement_planar : least_agreement_curved;
+    return along < least * twice_area ? twice_area / 2 : 0;
+}
+
+/// Whether no more area points the wrong way than before: what comes in wrong may stay for a while.
+bool keeps_facing(const Session& session, const std::vector<PlacedTriangle>& added, const Change& change) {
+    double after = 0;
+    for (std::size_t i = 0; i < added.size(); ++i)
+        after += wrong_area(session, session.net.patch(change.added[i]), added[i].corners);
+    if (after == 0) return true;
+    double before = 0;
+    for (const Index t : change.removed)
+        before += wrong_area(session, session.net.patch(t), session.net.corners(t));
+    return after <= before;
+}
+
+/// Triangles that all point the way of their plane fill it like a map: while their common rim stays they
+/// cannot overlap, and the exact tests, slow within a plane, are not needed.
+bool in_one_plane(const Patch& a, const Patch& b) {
+    return a.planar && a.surface == b.surface;
+}
+
+bool meets_a_neighbour(const Net& net, const std::vector<PlacedTriangle>& added, const Change& change) {
+    std::vector<Index> nearby;
+    for (std::size_t i = 0; i < added.size(); ++i) {
+        const Corners& corners = added[i].corners;
+        const Patch& patch = net.patch(change.added[i]);
+        const Eigen::Array3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+        const Eigen::Array3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+        nearby.clear();
+        net.grid().collect(corners, nearby);
+        for (const Index t : nearby) {
+            if (in_one_plane(patch, net.patch(t))) continue;
+            if (std::ranges::find(change.removed, t) != change.removed.end()) continue;
+            const PlacedTriangle other = placed(net, t);
+            const auto& c = other.corners;
+            const Eigen::Array3d other_low = c[0].cwiseMin(c[1]).cwiseMin(c[2]);
+            const Eigen::Array3d other_high = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
+            if ((other_low > high).any() || (other_high < low).any()) continue;
+            if (collide(added[i], other)) return true;
+        }
+    }
+    return false;
+}
+
+bool meet_each_other(const Net& net, const std::vector<PlacedTriangle>& added, const Change& change) {
+    for (std::size_t i = 0; i < added.size(); ++i)
+        for (std::size_t j = i + 1; j < added.size(); ++j) {
+            if (in_one_plane(net.patch(change.added[i]), net.patch(change.added[j]))) continue;
+            if (collide(added[i], added[j])) return true;
+        }
+    return false;
+}
+
+bool is_flat(const std::array<Vec3, 4>& t) {
+    const Vec3 a = t[1] - t[0];
+    const Vec3 b = t[2] - t[0];
+    const Vec3 c = t[3] - t[0];
+    return std::abs(a.dot(b.cross(c))) <= 1e-12 * a.norm() * b.norm() * c.norm();
+}
+
+/// A loose piece of surface could lie wholly in what the sheets sweep over; then it has a vertex there.
+bool sweeps_over_a_vertex(const Net& net, const Change& change) {
+    const auto takes_part = [&](Index v) {
+        return v == change.moved ||
+               std::ranges::any_of(change.removed, [&](Index t) { return contains(net.triangle(t), v); });
+    };
+    std::vector<Index> nearby;
+    for (const auto& tetrahedron : change.swept) {
+        if (is_flat(tetrahedron)) continue;
+        Eigen::AlignedBox3d box;
+        for (const Vec3& p : tetrahedron) box.extend(p);
+        nearby.clear();
+        net.grid().collect(box, nearby);
+        for (const Index t : nearby)
+            for (const Index v : net.triangle(t).vertices)
+                if (box.contains(net.point(v)) && !takes_part(v) && is_inside(tetrahedron, net.point(v)))
+                    return true;
+    }
+    return false;
+}
+
+/// Triangles with the same vertices are one sheet twice. In a plane no other test tells.
+bool doubles_a_triangle(const Net& net, const Change& change) {
+    const auto sorted = [](std::array<Index, 3> v) {
+        std::ranges::sort(v);
+        return v;
+    };
+    std::vector<std::array<Index, 3>> seen;
+    for (const Triangle& triangle : change.added) {
+        const auto key = sorted(triangle.vertices);
+        if (std::ranges::find(seen, key) != seen.end()) return true;
+        seen.push_back(key);
+        for (const Index t : net.triangles_at(triangle.vertices[0]))
+            if (sorted(net.triangle(t).vertices) == key &&
+                std::ranges::find(change.removed, t) == change.removed.end())
+                return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+double quality(const Corners& corners) {
+    const auto& [a, b, c] = corners;
+    const double ab = (b - a).squaredNorm();
+    const double bc = (c - b).squaredNorm();
+    const double ca = (a - c).squaredNorm();
+    const double shortest = std::min({ab, bc, ca});
+    // The smallest angle lies between the two longer edges.
+    const double product = shortest == ab ? bc * ca : shortest == bc ? ab * ca : ab * bc;
+    return product == 0 ? 0 : (b - a).cross(c - a).norm() / std::sqrt(product);
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 along = b - a;
+    const double t = std::clamp(along.dot(p - a) / along.squaredNorm(), 0.0, 1.0);
+    return (a + t * along - p).norm();
+}
+
+double worst_quality(const Net& net, std::span<const Index> triangles) {
+    double worst = 1;
+    for (const Index t : triangles) worst = std::min(worst, quality(net.corners(t)));
+    return worst;
+}
+
+double worst_quality(const Net& net, const Change& change) {
+    double worst = 1;
+    for (const Triangle& triangle : change.added)
+        worst = std::min(worst, quality(placed(net, change, triangle).corners));
+    return worst;
+}
+
+bool try_change(Session& session, const Change& change, double least_quality) {
+    Net& net = session.net;
+    if (std::ranges::any_of(change.removed, [&](Index t) { return net.patch(t).frozen; })) return false;
+    std::vector<PlacedTriangle> added;
+    added.reserve(change.added.size());
+    for (const Triangle& triangle : change.added) {
+        added.push_back(placed(net, change, triangle));
+        if (quality(added.back().corners) < least_quality) return false;
+    }
+    if (!keeps_facing(session, added, change) || doubles_a_triangle(net, change)) return false;
+    for (const PlacedTriangle& triangle : added)
+        if (quality(triangle.corners) < 1e-12 && has_no_area(triangle.corners)) return false;
+    if (meets_a_neighbour(net, added, change) || meet_each_other(net, added, change)) return false;
+    if (sweeps_over_a_vertex(net, change)) return false;
+    net.apply(change);
+    return true;
+}
+
+bool has_collision(const Net& net) {
+    std::vector<Index> nearby;
+    for (Index t = 0; t < net.n_triangles(); ++t) {
+        if (!net.is_alive(t)) continue;
+        const PlacedTriangle triangle = placed(net, t);
+        nearby.clear();
+        net.grid().collect(triangle.corners, nearby);
+        for (const Index other : nearby)
+            if (other > t && !in_one_plane(net.patch(t), net.patch(other)) &&
+                collide(triangle, placed(net, other)))
+                return true;
+    }
+    return false;
+}
+
+}  // namespace maille::modeler::remeshing

@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "modeler/remesh_check.hh"
+#include "modeler/remesh_features.hh"
+#include "modeler/remesh_passes.hh"
+
+namespace maille::modeler::remeshing {
+
+namespace {
+
+constexpr double on_surface = 1e-13;      // of the size
+constexpr double projection_reach = 1.0;  // of the size: further away no surface is meant
+constexpr double least_after_projection = 1e-3;
+constexpr double smoothed = 0.7;  // triangles of this quality, an angle of 44 degrees, are left alone
+constexpr double least_gain = 0.005;
+
+/// The change that moves v, its triangles the same.
+Change move(const Net& net, Index v, const Vec3& to) {
+    Change change;
+    change.moved = v;
+    change.position = to;
+    for (const Index t : net.triangles_at(v)) {
+        change.removed.push_back(t);
+        change.added.push_back(net.triangle(t));
+        const auto [a, b, c] = net.corners(t);
+        change.swept.push_back({a, b, c, to});
+    }
+    return change;
+}
+
+bool is_frozen(const Net& net, Index v) {
+    return std::ranges::any_of(net.triangles_at(v), [&](Index t) { return net.patch(t).frozen; });
+}
+
+/// Where v belongs, or nothing where its surfaces have no common point near it.
+std::optional<Vec3> place_on_surfaces(const Session& session, Index v) {
+    const Net& net = session.net;
+    return nearest(session, net.surfaces(net.triangles_at(v)), net.kind(v), net.point(v),
+                   projection_reach * net.size(v));
+}
+
+/// The middle of the neighbours of v; on a curve of those along it.
+Vec3 middle_of_neighbours(const Net& net, std::span<const Index> neighbours) {
+    Vec3 sum = Vec3::Zero();
+    for (const Index w : neighbours) sum += net.point(w);
+    return sum / static_cast<double>(neighbours.size());
+}
+
+/// The mean of the places where v would make each of its triangles isosceles and as high as an equilateral
+/// one.
+Vec3 mean_of_ideal_apexes(const Net& net, Index v) {
+    Vec3 sum = Vec3::Zero();
+    const auto around = net.triangles_at(v);
+    for (const Index t : around) {
+        std::array<Vec3, 2> base;
+        std::size_t n = 0;
+        for (const Index w : net.triangle(t).vertices)
+            if (w != v) base[n++] = net.point(w);
+        const Vec3 along = base[1] - base[0];
+        const Vec3 middle = (base[0] + base[1]) / 2;
+        const Vec3 up =
+            (net.point(v) - middle) - along * (along.dot(net.point(v) - middle) / along.squaredNorm());
+        sum += middle + up.normalized() * along.norm() * std::sqrt(0.75);
+    }
+    return sum / static_cast<double>(around.size());
+}
+
+bool try_smoothing(Session& session, Index v) {
+    const Net& net = session.net;
+    const VertexKind kind = net.kind(v);
+    if (kind != VertexKind::face && kind != VertexKind::curve) return false;
+    const double before = worst_quality(net, net.triangles_at(v));
+    if (before > smoothed) return false;
+
+    const auto surfaces = net.surfaces(net.triangles_at(v));
+    const auto ends = kind == VertexKind::curve ? net.feature_neighbours(v) : net.neighbours(v);
+    Change best;
+    double best_quality = before + least_gain;
+    for (const Vec3& aim : {middle_of_neighbours(net, ends), mean_of_ideal_apexes(net, v)})
+        for (const double step : {1.0, 0.5, 0.25}) {
+            const Vec3 wanted = net.point(v) + step * (aim - net.point(v));
+            const auto target = nearest(session, surfaces, kind, wanted, net.size(v));
+            if (!target) continue;
+            Change change = move(net, v, *target);
+            const double after = worst_quality(net, change);
+            if (after <= best_quality) continue;
+            best_quality = after;
+            best = std::move(change);
+        }
+    return best.moved != none && try_change(session, best, before);
+}
+
+}  // namespace
+
+std::size_t project_vertices(Session& session) {
+    const Net& net = session.net;
+    std::size_t done = 0;
+    for (Index v = 0; v < net.n_vertices(); ++v) {
+        if (net.triangles_at(v).empty() || is_frozen(net, v)) continue;
+        const auto target = place_on_surfaces(session, v);
+        if (!target || (*target - net.point(v)).norm() <= on_surface * net.size(v)) continue;
+        const Change change = move(net, v, *target);
+        const double before = worst_quality(net, change.removed);
+        if (try_change(session, change, std::min(before, least_after_projection))) ++done;
+    }
+    session.report.projections += done;
+    return done;
+}
+
+std::size_t smooth_vertices(Session& session) {
+    std::size_t done = 0;
+    for (Index v = 0; v < session.net.n_vertices(); ++v)
+        if (!session.net.triangles_at(v).empty() && try_smoothing(session, v)) ++done;
+    session.report.smoothings += done;
+    return done;
+}
+
+std::size_t count_short_of_surface(const Session& session) {
+    const Net& net = session.net;
+    std::size_t count = 0;
+    for (Index v = 0; v < net.n_vertices(); ++v) {
+        if (net.triangles_at(v).empty() || is_frozen(net, v)) continue;
+        const auto target = place_on_surfaces(session, v);
+        // Ten times the tolerance of the moves: projecting again rounds again.
+        if (!target || (*target - net.point(v)).norm() > 10 * on_surface * net.size(v)) ++count;
+    }
+    return count;
+}
+
+}  // namespace maille::modeler::remeshing
