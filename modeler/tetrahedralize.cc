@@ -1,0 +1,181 @@
+#include "modeler/tetrahedralize.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include <Eigen/Geometry>
+#include <fmt/core.h>
+
+#include "modeler/tetgen_process.hh"
+#include "modeler/tetrahedralize_check.hh"
+#include "volmesh/error.hh"
+#include "volmesh/tet_topology.hh"
+
+namespace maille::modeler {
+namespace {
+
+using tetgen::Answer;
+using tetgen::Request;
+
+/// One way to ask TetGen.
+struct Rung {
+    bool keep_facets = true;
+    bool refine = true;
+    double jitter = 0;  ///< relative to the diagonal
+    const char* words = "";
+};
+
+constexpr std::array<Rung, 7> ladder{{
+    {.words = "as it is"},
+    {.jitter = 1e-10, .words = "with its points shifted by 1e-10 of the diagonal"},
+    {.keep_facets = false, .words = "with facets split"},
+    {.jitter = 1e-8, .words = "with its points shifted by 1e-8 of the diagonal"},
+    {.keep_facets = false,
+     .jitter = 1e-10,
+     .words = "with facets split and points shifted by 1e-10 of the diagonal"},
+    {.refine = false, .words = "without refinement"},
+    {.refine = false, .jitter = 1e-8, .words = "without refinement, points shifted by 1e-8 of the diagonal"},
+}};
+
+/// Volume of a regular tetrahedron: what TetGen may make the largest.
+double volume_of_size(double size) {
+    return size * size * size / (6 * std::numbers::sqrt2);
+}
+
+double processor_time(const FacetComplex& complex, std::span<const double> sizes,
+                      const TetrahedralizeOptions& options) {
+    if (options.time_limit > 0) return options.time_limit;
+    double cells = 10.0 * static_cast<double>(complex.facets.size());
+    const std::vector<double> volumes = tetgen::region_volumes(complex);
+    for (std::size_t r = 0; r < volumes.size(); ++r) cells += 3 * volumes[r] / volume_of_size(sizes[r]);
+    return 20 + 2e-4 * cells;
+}
+
+std::vector<Eigen::Vector3d> jittered(std::vector<Eigen::Vector3d> points, double relative) {
+    if (relative == 0) return points;
+    Eigen::AlignedBox3d box;
+    for (const auto& p : points) box.extend(p);
+    std::mt19937_64 random(1);
+    const double reach = relative * box.diagonal().norm();
+    const auto shift = [&] { return reach * (2 * static_cast<double>(random() >> 11) * 0x1p-53 - 1); };
+    for (auto& p : points)
+        for (int k = 0; k < 3; ++k) p[k] += shift();
+    return points;
+}
+
+/// The middle of the roundest cell of each component, with its region.
+struct Middle {
+    double roundness = 0;
+    Eigen::Vector3d place;
+    Region region = outside;
+};
+
+std::vector<Middle> middles(const Answer& answer, const tetgen::Regions& regions) {
+    std::vector<Middle> result(regions.n_components);
+    for (std::size_t c = 0; c < answer.cells.size(); ++c) {
+        std::array<Eigen::Vector3d, 4> p;
+        for (int k = 0; k < 4; ++k) p[k] = answer.points[answer.cells[c][k]];
+        const double six_volumes = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+        double area = 0;
+        for (const auto& f : volmesh::tet::face_vertices)
+            area += (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]).norm();
+        // Proportional to the inscribed sphere's radius.
+        const double roundness = area > 0 ? six_volumes / area : 0;
+        if (Middle& best = result[regions.component[c]]; roundness > best.roundness)
+            best = {roundness, (p[0] + p[1] + p[2] + p[3]) / 4, regions.of_cell[c]};
+    }
+    return result;
+}
+
+/// TetGen marks regions and holes by a place within: these come from a first mesh of the facets alone.
+void place_seeds(Request& request, const FacetComplex& complex, std::span<const double> sizes) {
+    const Answer coarse = tetgen::run(request);
+    tetgen::check_complete(coarse, request);
+    for (const Middle& middle : middles(coarse, tetgen::find_regions(coarse, complex))) {
+        if (middle.region < 0)
+            request.holes.push_back(middle.place);
+        else
+            request.regions.push_back({middle.place, volume_of_size(sizes[middle.region])});
+    }
+}
+
+ComplexMesh cells_of_regions(Answer answer, const tetgen::Regions& regions) {
+    ComplexMesh mesh;
+    for (std::size_t c = 0; c < answer.cells.size(); ++c) {
+        if (regions.of_cell[c] < 0) continue;
+        mesh.cells.push_back(answer.cells[c]);
+        mesh.regions.push_back(regions.of_cell[c]);
+    }
+    mesh.points = std::move(answer.points);
+    mesh.facets = std::move(answer.facets);
+    mesh.parents = std::move(answer.parents);
+    return mesh;
+}
+
+/// Throws tetgen::Failure where TetGen fails or its mesh is not right.
+ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, double time_limit,
+                    const Rung& rung) {
+    Request request;
+    request.processor_time = time_limit;
+    request.points = jittered(complex.points, rung.jitter);
+    for (const Facet& facet : complex.facets) request.facets.push_back(facet.vertices);
+    const std::string keep = rung.keep_facets ? "Y" : "";
+    request.switches = "pnQ" + keep;
+    const bool one_region = std::ranges::none_of(complex.facets, [](const Facet& f) {
+        return std::min(f.front, f.back) != outside || std::max(f.front, f.back) != 0;
+    });
+    if (rung.refine && one_region) {
+        request.switches = fmt::format("pq1.4/14{}nQo/140a{:.17g}", keep, volume_of_size(sizes[0]));
+    } else if (rung.refine) {
+        place_seeds(request, complex, sizes);
+        request.switches = fmt::format("pq1.4/12{}nQo/140a", keep);
+    }
+    Answer answer = tetgen::run(request);
+    tetgen::check_complete(answer, request);
+    std::ranges::copy(complex.points, answer.points.begin());
+    const tetgen::Regions regions = tetgen::find_regions(answer, complex);
+    tetgen::check_geometry(answer, regions, complex);
+    return cells_of_regions(std::move(answer), regions);
+}
+
+}  // namespace
+
+ComplexMesh tetrahedralize(const FacetComplex& complex, std::span<const double> sizes,
+                           const TetrahedralizeOptions& options, std::vector<std::string>* warnings) {
+    // TetGen crashes on nothing.
+    if (complex.facets.empty()) return {};
+    const double time_limit = processor_time(complex, sizes, options);
+    const bool may_split = std::ranges::none_of(complex.facets, &Facet::frozen);
+    std::string reasons;
+    for (const Rung& rung : ladder) {
+        if (!rung.keep_facets && !may_split) continue;
+        try {
+            return attempt(complex, sizes, time_limit, rung);
+        } catch (const tetgen::Failure& failure) {
+            const std::string told =
+                fmt::format("meshing {} {}: {}", options.name, rung.words, failure.what());
+            if (warnings != nullptr) warnings->push_back(told);
+            reasons += "; " + told;
+        }
+    }
+    throw InputError(fmt::format("{} could not be filled with tetrahedra{}", options.name, reasons));
+}
+
+volmesh::TetMesh tetrahedralize(const volmesh::TriMesh& surface, double size,
+                                const TetrahedralizeOptions& options, std::vector<std::string>* warnings) {
+    FacetComplex complex;
+    for (const auto v : surface.vertices()) complex.points.push_back(surface.point(v));
+    for (const auto f : surface.faces()) {
+        Facet facet{.vertices = {}, .surface = 0, .front = outside, .back = 0, .frozen = true};
+        auto corner = facet.vertices.begin();
+        for (const auto v : surface.fv_range(f)) *corner++ = static_cast<std::uint32_t>(v.idx());
+        complex.facets.push_back(facet);
+    }
+    ComplexMesh mesh = tetrahedralize(complex, std::array{size}, options, warnings);
+    return volmesh::TetMesh::from_cells(std::move(mesh.points), std::move(mesh.cells));
+}
+
+}  // namespace maille::modeler
