@@ -27,7 +27,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string_view kind(const Value& value) {
-    constexpr std::string_view names[] = {"a number", "a boolean", "a string", "a vector"};
+    constexpr std::string_view names[] = {"a number", "a boolean", "a string", "a vector", "undef"};
     return names[value.data.index()];
 }
 

@@ -46,7 +46,7 @@ bool keeps_facets(Facets facets, const FacetSettings& settings) {
     return settings.fn >= least_prism && settings.fn <= most_prism;
 }
 
-ShapePointer shape_of(Polyhedron solid, const Eigen::Affine3d& frame) {
+ShapePointer shape_of(FacetedSolid solid, const Eigen::Affine3d& frame) {
     return make_polyhedron(std::move(solid.points), std::move(solid.faces), std::move(solid.names), frame);
 }
 
@@ -187,7 +187,7 @@ std::vector<std::uint32_t> polyhedron_face(const Arguments& arguments, const Val
 
 ShapePointer polyhedron(const Node& node, const std::string& file, const Placement& placement) {
     const Arguments arguments(node, file, {"points", "faces", "triangles"});
-    Polyhedron solid{.points = points(arguments), .faces = {}, .names = {}};
+    FacetedSolid solid{.points = points(arguments), .faces = {}, .names = {}};
     if (arguments.has("faces") && arguments.has("triangles"))
         throw arguments.error("triangles", "give 'faces' or 'triangles', not both");
     for (const Value& face : arguments.list(arguments.has("triangles") ? "triangles" : "faces")) {

@@ -22,7 +22,7 @@ double sine_of_acute(double angle) {
 }
 
 /// Counter-clockwise seen from above; returns the number of the first point.
-std::uint32_t add_ring(Polyhedron& solid, double radius, double z, int fragments) {
+std::uint32_t add_ring(FacetedSolid& solid, double radius, double z, int fragments) {
     const auto first = static_cast<std::uint32_t>(solid.points.size());
     for (int i = 0; i < fragments; ++i) {
         const double angle = 360.0 * i / fragments;
@@ -31,20 +31,21 @@ std::uint32_t add_ring(Polyhedron& solid, double radius, double z, int fragments
     return first;
 }
 
-void add_face(Polyhedron& solid, std::vector<std::uint32_t> corners, const char* name) {
+void add_face(FacetedSolid& solid, std::vector<std::uint32_t> corners, const char* name) {
     solid.faces.push_back(std::move(corners));
     solid.names.emplace_back(name);
 }
 
 /// The ring itself as a face that looks up, or down.
-void add_cap(Polyhedron& solid, std::uint32_t ring, int fragments, bool looks_up, const char* name) {
+void add_cap(FacetedSolid& solid, std::uint32_t ring, int fragments, bool looks_up, const char* name) {
     std::vector<std::uint32_t> corners(static_cast<std::size_t>(fragments));
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = ring + static_cast<std::uint32_t>(i);
     if (!looks_up) std::ranges::reverse(corners);
     add_face(solid, std::move(corners), name);
 }
 
-void add_band(Polyhedron& solid, std::uint32_t lower, std::uint32_t upper, int fragments, const char* name) {
+void add_band(FacetedSolid& solid, std::uint32_t lower, std::uint32_t upper, int fragments,
+              const char* name) {
     const auto n = static_cast<std::uint32_t>(fragments);
     for (std::uint32_t i = 0; i < n; ++i) {
         const std::uint32_t j = (i + 1) % n;
@@ -53,7 +54,7 @@ void add_band(Polyhedron& solid, std::uint32_t lower, std::uint32_t upper, int f
 }
 
 /// Triangles from a ring to a point above it, or below it.
-void add_fan(Polyhedron& solid, std::uint32_t ring, double apex_z, bool apex_above, int fragments,
+void add_fan(FacetedSolid& solid, std::uint32_t ring, double apex_z, bool apex_above, int fragments,
              const char* name) {
     const auto apex = static_cast<std::uint32_t>(solid.points.size());
     solid.points.emplace_back(0, 0, apex_z);
@@ -94,8 +95,8 @@ int openscad_fragments(double radius, const FacetSettings& settings) {
     return static_cast<int>(fragments);
 }
 
-Polyhedron openscad_sphere(double radius, int fragments) {
-    Polyhedron solid;
+FacetedSolid openscad_sphere(double radius, int fragments) {
+    FacetedSolid solid;
     const int rings = (fragments + 1) / 2;
     std::uint32_t above = 0;
     for (int i = 0; i < rings; ++i) {
@@ -112,9 +113,9 @@ Polyhedron openscad_sphere(double radius, int fragments) {
     return solid;
 }
 
-Polyhedron openscad_cylinder(double height, double bottom_radius, double top_radius, bool center,
-                             int fragments) {
-    Polyhedron solid;
+FacetedSolid openscad_cylinder(double height, double bottom_radius, double top_radius, bool center,
+                               int fragments) {
+    FacetedSolid solid;
     const double bottom_z = center ? -height / 2 : 0;
     const double top_z = center ? height / 2 : height;
     if (bottom_radius > 0) {

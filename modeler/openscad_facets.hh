@@ -9,7 +9,7 @@
 namespace maille::modeler {
 
 /// A closed polyhedron: faces counter-clockwise seen from outside, with their names.
-struct Polyhedron {
+struct FacetedSolid {
     std::vector<Point> points;
     std::vector<std::vector<std::uint32_t>> faces;
     std::vector<std::string> names;
@@ -35,10 +35,10 @@ int openscad_fragments(double radius, const FacetSettings& settings);
 
 /// The polyhedron that OpenSCAD 2021 makes of a sphere: rings of vertices on it, half a step away from the
 /// poles.
-Polyhedron openscad_sphere(double radius, int fragments);
+FacetedSolid openscad_sphere(double radius, int fragments);
 
 /// The polyhedron that OpenSCAD 2021 makes of a cylinder or cone; at most one of the radii is 0.
-Polyhedron openscad_cylinder(double height, double bottom_radius, double top_radius, bool center,
-                             int fragments);
+FacetedSolid openscad_cylinder(double height, double bottom_radius, double top_radius, bool center,
+                               int fragments);
 
 }  // namespace maille::modeler

@@ -181,6 +181,7 @@ class Parser {
     Value named_constant(const Token& token) const {
         if (token.text == "true" || token.text == "false")
             return {.data = token.text == "true", .at = token.at};
+        if (token.text == "undef") return {.data = std::monostate{}, .at = token.at};
         if (token.text == "pi" || token.text == "PI") return {.data = std::numbers::pi, .at = token.at};
         throw located_error(
             file_, token.at,

@@ -11,7 +11,7 @@ namespace maille::modeler {
 
 /// A value of the model language: what an argument was written as.
 struct Value {
-    std::variant<double, bool, std::string, std::vector<Value>> data;
+    std::variant<double, bool, std::string, std::vector<Value>, std::monostate> data;  ///< monostate: undef
     Location at{};
 };
 
