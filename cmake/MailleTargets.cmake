@@ -15,6 +15,8 @@ endif()
 add_library(maille_options INTERFACE)
 target_compile_options(maille_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+  # OpenMesh copies Eigen points before they have values.
+  -Wno-maybe-uninitialized
   # Same bytes out on every machine: no fused operations that only some processors have.
   -ffp-contract=off)
 target_include_directories(maille_options INTERFACE ${PROJECT_SOURCE_DIR})

@@ -1,7 +1,10 @@
 #pragma once
 
+// clang-format off: EigenVectorT.hh specialises what vector_traits.hh declares, without including it.
+#include <OpenMesh/Core/Utils/vector_traits.hh>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+// clang-format on
 
 namespace maille::volmesh {
 
