@@ -1,0 +1,154 @@
+#include "quality/measures.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace maille::quality {
+namespace {
+
+/// A power of two near the largest coordinate, within the range whose inverse is finite.
+double power_of_two_near(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, std::max(exponent, -1000));
+}
+
+double cube(double x) {
+    return x * x * x;
+}
+
+/// Quotients of measures: 0 where everything has collapsed.
+double ratio(double part, double whole) {
+    return whole > 0 ? part / whole : 0;
+}
+
+double degrees(double radians) {
+    return radians * (180 / std::numbers::pi);
+}
+
+/// The angle at an edge: the cross product of two face normals is 6 V times the edge.
+double dihedral(const TetGeometry& t, int edge) {
+    return degrees(std::atan2(6 * t.volume * t.lengths[edge], -t.normal_products[edge]));
+}
+
+}  // namespace
+
+TetGeometry tet_geometry(const Point& a, const Point& b, const Point& c, const Point& d) {
+    TetGeometry t;
+    std::array<Point, 6> edges{b - a, c - a, d - a, c - b, d - b, d - c};
+    double size = 0;
+    for (const Point& edge : edges)
+        for (double x : edge) size = std::max(size, std::abs(x));
+    if (!(size > 0) || !std::isfinite(size)) return t;
+
+    t.unit = power_of_two_near(size);
+    for (Point& edge : edges) edge *= 1 / t.unit;
+    const auto& [ab, ac, ad, bc, bd, cd] = edges;
+
+    double sum_of_squares = 0;
+    for (int i = 0; i < 6; ++i) {
+        const double square = edges[i].squaredNorm();
+        sum_of_squares += square;
+        t.lengths[i] = std::sqrt(square);
+        t.mean_edge += t.lengths[i] / 6;
+    }
+    t.rms_edge = std::sqrt(sum_of_squares / 6);
+    const auto [shortest, longest] = std::minmax_element(t.lengths.begin(), t.lengths.end());
+    t.shortest_edge = *shortest;
+    t.longest_edge = *longest;
+
+    const std::array<Point, 4> normals{bc.cross(bd), ad.cross(ac), ab.cross(ad), ac.cross(ab)};
+    double area = 0;
+    for (int i = 0; i < 4; ++i) {
+        t.areas[i] = normals[i].norm() / 2;
+        area += t.areas[i];
+    }
+    // The two faces at an edge are those opposite the vertices that it doesn't have.
+    t.normal_products = {normals[2].dot(normals[3]), normals[1].dot(normals[3]), normals[1].dot(normals[2]),
+                         normals[0].dot(normals[3]), normals[0].dot(normals[2]), normals[0].dot(normals[1])};
+
+    t.volume = -ad.dot(normals[3]) / 6;
+    t.inradius = ratio(3 * t.volume, area);
+    if (t.volume != 0) {
+        const Point towards_center =
+            -ab.squaredNorm() * normals[1] - ac.squaredNorm() * normals[2] - ad.squaredNorm() * normals[3];
+        // No sphere through both ends of an edge is smaller than it: rounding may not say so for a near-flat
+        // cell.
+        t.circumradius = std::max(towards_center.norm() / std::abs(12 * t.volume), t.longest_edge / 2);
+    }
+    return t;
+}
+
+double volume(const TetGeometry& t) {
+    return t.volume * cube(t.unit);
+}
+double inradius(const TetGeometry& t) {
+    return t.inradius * t.unit;
+}
+double circumradius(const TetGeometry& t) {
+    return std::isinf(t.circumradius) ? t.circumradius : t.circumradius * t.unit;
+}
+double shortest_edge(const TetGeometry& t) {
+    return t.shortest_edge * t.unit;
+}
+double longest_edge(const TetGeometry& t) {
+    return t.longest_edge * t.unit;
+}
+double mean_edge(const TetGeometry& t) {
+    return t.mean_edge * t.unit;
+}
+double rms_edge(const TetGeometry& t) {
+    return t.rms_edge * t.unit;
+}
+
+double radius_ratio(const TetGeometry& t) {
+    return t.inradius / t.circumradius;
+}
+double beta(const TetGeometry& t) {
+    return 3 * radius_ratio(t);
+}
+double sigma(const TetGeometry& t) {
+    return 2 * std::numbers::sqrt2 * std::numbers::sqrt3 * ratio(t.inradius, t.longest_edge);
+}
+double omega(const TetGeometry& t) {
+    return std::numbers::sqrt2 * std::numbers::sqrt3 / 4 * t.longest_edge / t.circumradius;
+}
+double tau(const TetGeometry& t) {
+    return ratio(t.shortest_edge, t.longest_edge);
+}
+
+double kappa(const TetGeometry& t) {
+    double squares = 0;
+    for (double area : t.areas) squares += area * area;
+    return 2187 * ratio(cube(t.volume) * std::abs(t.volume), cube(squares));
+}
+
+double alpha(const TetGeometry& t) {
+    return 6 * std::numbers::sqrt2 * ratio(t.volume, cube(t.mean_edge));
+}
+double gamma(const TetGeometry& t) {
+    return 6 * std::numbers::sqrt2 * ratio(t.volume, cube(t.rms_edge));
+}
+
+double dihedral_min(const TetGeometry& t) {
+    if (!(t.volume > 0)) return 0;
+    double angle = 180;
+    for (int edge = 0; edge < 6; ++edge) angle = std::min(angle, dihedral(t, edge));
+    return angle;
+}
+
+double dihedral_max(const TetGeometry& t) {
+    if (!(t.volume > 0)) return 180;
+    double angle = 0;
+    for (int edge = 0; edge < 6; ++edge) angle = std::max(angle, dihedral(t, edge));
+    return angle;
+}
+
+double phi(const TetGeometry& t, double size) {
+    return longest_edge(t) / size;
+}
+
+}  // namespace maille::quality
