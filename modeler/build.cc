@@ -1,0 +1,213 @@
+#include "modeler/build.hh"
+
+#include <algorithm>
+#include <chrono>
+#include <unordered_map>
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include "modeler/build_size.hh"
+#include "modeler/merge_operand.hh"
+#include "modeler/parallel.hh"
+#include "modeler/tessellate.hh"
+#include "modeler/tetrahedralize.hh"
+#include "volmesh/error.hh"
+
+namespace maille::modeler {
+namespace {
+
+using volmesh::CellHandle;
+using volmesh::EntityKind;
+using volmesh::SetHandle;
+using volmesh::TetMesh;
+
+double processor_seconds() {
+    double seconds = 0;
+    for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+        rusage usage{};
+        getrusage(who, &usage);
+        for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+            seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    }
+    return seconds;
+}
+
+/// Adds the time of its life to a phase.
+class PhaseTimer {
+  public:
+    explicit PhaseTimer(PhaseTime& phase) : phase_(phase) {}
+    PhaseTimer(const PhaseTimer&) = delete;
+    PhaseTimer& operator=(const PhaseTimer&) = delete;
+    ~PhaseTimer() {
+        phase_.cpu_seconds += processor_seconds() - cpu_;
+        phase_.wall_seconds +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
+    }
+
+  private:
+    PhaseTime& phase_;
+    double cpu_ = processor_seconds();
+    std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+};
+
+double default_size(const Model& model) {
+    Eigen::AlignedBox3d box;
+    for (const Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
+    return box.diagonal().norm() / 20;
+}
+
+std::vector<double> sizes_of_primitives(const Model& model, const BuildOptions& options) {
+    if (options.size < 0) throw InputError(fmt::format("the size has to be positive, not {}", options.size));
+    const double general = options.size > 0 ? options.size : default_size(model);
+    std::vector<double> sizes;
+    for (const Primitive& primitive : model.primitives)
+        sizes.push_back(primitive.size > 0 ? primitive.size : general);
+    return sizes;
+}
+
+/// Marks the primitives that can own cells.
+void mark_owners(const CsgTree& tree, std::vector<std::uint8_t>& marks) {
+    const bool first_only =
+        tree.operation == Operation::intersection || tree.operation == Operation::difference;
+    if (tree.operation == Operation::leaf) marks[tree.primitive] = 1;
+    for (const CsgTree& child : tree.children) {
+        mark_owners(child, marks);
+        if (first_only) return;
+    }
+}
+
+ClosedSurface closed_surface(const volmesh::TriMesh& mesh, std::uint32_t first_surface) {
+    ClosedSurface result;
+    for (const auto v : mesh.vertices()) result.points.push_back(mesh.point(v));
+    for (const auto f : mesh.faces()) {
+        std::array<std::uint32_t, 3> triangle{};
+        auto corner = triangle.begin();
+        for (const auto v : mesh.fv_range(f)) *corner++ = static_cast<std::uint32_t>(v.idx());
+        result.triangles.push_back(triangle);
+        result.surfaces.push_back(first_surface + surface_of(mesh, f));
+    }
+    return result;
+}
+
+/// The number of each primitive's first surface.
+std::vector<std::uint32_t> first_surfaces(const Model& model) {
+    std::vector<std::uint32_t> first(model.primitives.size());
+    const std::vector<ModelSurface> numbered = surfaces(model);
+    for (std::size_t s = numbered.size(); s-- > 0;)
+        first[numbered[s].primitive] = static_cast<std::uint32_t>(s);
+    return first;
+}
+
+std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& options,
+                                     std::vector<std::string>& warnings) {
+    const std::size_t n = model.primitives.size();
+    const std::vector<double> sizes = sizes_of_primitives(model, options);
+    const std::vector<std::uint32_t> first = first_surfaces(model);
+    std::vector<std::uint8_t> may_own(n);
+    mark_owners(model.tree, may_own);
+    std::vector<Operand> operands(n);
+    std::vector<std::vector<std::string>> warnings_of(n);
+    parallel_for(n, options.threads, [&](std::size_t i) {
+        const Primitive& primitive = model.primitives[i];
+        Operand& operand = operands[i];
+        operand.name = primitive.name;
+        operand.size = sizes[i];
+        const volmesh::TriMesh surface = tessellate(
+            primitive, TessellateOptions{.size = sizes[i], .chord_tolerance = options.chord_tolerance});
+        operand.surface = closed_surface(surface, first[i]);
+        if (!may_own[i] || !options.keep_cells) return;
+        try {
+            operand.mesh =
+                tetrahedralize(surface, sizes[i], {.time_limit = options.time_limit, .name = primitive.name},
+                               &warnings_of[i]);
+        } catch (const InputError& error) {
+            // It can still be meshed together with the others.
+            warnings_of[i].push_back(error.what());
+        }
+    });
+    for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(warnings));
+    return operands;
+}
+
+RemeshGeometry remesh_geometry(const Model& model, std::span<const Operand> operands) {
+    std::vector<double> sizes;
+    std::vector<ClosedSurface> tessellated;
+    for (const Operand& operand : operands) {
+        sizes.push_back(operand.size);
+        tessellated.push_back(operand.surface);
+    }
+    const auto face = [numbered = surfaces(model), primitives = model.primitives](std::uint32_t surface) {
+        return std::pair(primitives[numbered[surface].primitive].shape.get(), numbered[surface].face);
+    };
+    return {.project = projector(model).project,
+            .normal =
+                [=](std::uint32_t surface, const Point& p) {
+                    const auto [shape, number] = face(surface);
+                    return shape->face_normal(number, p);
+                },
+            .planar =
+                [=](std::uint32_t surface) {
+                    const auto [shape, number] = face(surface);
+                    return shape->faces()[number].planar;
+                },
+            .size = SurfaceSize(model, sizes, tessellated)};
+}
+
+SetHandle named_set(TetMesh& mesh, const std::string& name, EntityKind kind) {
+    const SetHandle known = mesh.find_set(name, kind);
+    return known.is_valid() ? known : mesh.add_set(name, kind);
+}
+
+void name_cells(TetMesh& mesh, const std::vector<std::uint32_t>& regions, const Model& model) {
+    std::vector<std::uint8_t> owns(model.primitives.size());
+    for (const std::uint32_t region : regions) owns[region] = 1;
+    std::vector<std::vector<SetHandle>> sets(model.primitives.size());
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        if (!owns[i]) continue;
+        const Primitive& primitive = model.primitives[i];
+        sets[i].push_back(named_set(mesh, primitive.name, EntityKind::cell));
+        if (!primitive.material.empty())
+            sets[i].push_back(named_set(mesh, primitive.material, EntityKind::cell));
+    }
+    for (const CellHandle c : mesh.cells())
+        for (const SetHandle set : sets[regions[c.idx()]]) mesh.insert(set, c);
+}
+
+void name_faces(TetMesh& mesh, const std::vector<InterfaceFace>& faces, const Model& model) {
+    const std::vector<ModelSurface> numbered = surfaces(model);
+    std::vector<std::array<SetHandle, 2>> sets(numbered.size());  // of the boundary, of inner faces
+    const auto is_inner = [&](const InterfaceFace& face) { return !mesh.is_boundary(face.face); };
+    for (const InterfaceFace& face : faces) sets[face.surface][is_inner(face)] = SetHandle(0);
+    for (std::size_t s = 0; s < sets.size(); ++s)
+        for (const bool inner : {false, true})
+            if (SetHandle& set = sets[s][inner]; set.is_valid())
+                set = named_set(mesh, numbered[s].name + std::string(inner ? inner_suffix : ""),
+                                EntityKind::face);
+    for (const InterfaceFace& face : faces) mesh.insert(sets[face.surface][is_inner(face)], face.face);
+}
+
+}  // namespace
+
+TetMesh build(const Model& model, const BuildOptions& options, BuildReport* report) {
+    BuildReport unwanted;
+    BuildReport& told = report != nullptr ? *report : unwanted;
+    if (model.primitives.empty()) throw InputError("the model is empty: it has no solids");
+    std::vector<Operand> operands;
+    {
+        const PhaseTimer timer(told.primitives);
+        operands = mesh_primitives(model, options, told.warnings);
+    }
+    const PhaseTimer timer(told.merge);
+    const auto n_surfaces = static_cast<std::uint32_t>(surfaces(model).size());
+    Merged merged =
+        merge_operands(operands, model.tree, remesh_geometry(model, operands), n_surfaces,
+                       {.keep_cells = options.keep_cells, .time_limit = options.time_limit}, told.warnings);
+    told.kept_cells = merged.kept_cells.size();
+    told.new_cells = merged.mesh.n_cells() - told.kept_cells;
+    name_cells(merged.mesh, merged.regions, model);
+    name_faces(merged.mesh, merged.faces, model);
+    return std::move(merged.mesh);
+}
+
+}  // namespace maille::modeler

@@ -1,0 +1,122 @@
+#include "modeler/merge_operand.hh"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "modeler/merge_glue.hh"
+#include "modeler/merge_zone.hh"
+#include "modeler/tetrahedralize.hh"
+#include "volmesh/error.hh"
+
+namespace maille::modeler {
+namespace {
+
+/// One way to make the mesh.
+struct Way {
+    bool keep_cells;
+    bool remesh_surface;
+    const char* words;
+};
+
+constexpr std::array<Way, 2> first_ways{
+    {{true, true, "keeping cells"}, {false, true, "meshing everything anew"}}};
+constexpr Way last_way{false, false, "meshing everything anew on the surfaces as they are"};
+
+class Merger {
+  public:
+    Merger(std::span<const Operand> operands, const CsgTree& tree, const RemeshGeometry& geometry,
+           std::uint32_t n_surfaces, double time_limit, std::vector<std::string>& warnings)
+        : operands_(operands),
+          tree_(tree),
+          geometry_(with_shell(geometry, n_surfaces)),
+          shell_surface_(n_surfaces),
+          options_{.time_limit = time_limit, .name = names(operands)},
+          warnings_(warnings) {
+        for (const Operand& operand : operands) sizes_.push_back(operand.size);
+    }
+
+    Merged merge(const FacetComplex& interface, const Way& way) const {
+        const KeptCells kept =
+            way.keep_cells ? choose_kept_cells(operands_, tree_, interface) : nothing_kept();
+        FacetComplex zone = zone_complex(operands_, kept, interface, shell_surface_);
+        if (way.remesh_surface) remesh_surface(zone);
+        const FacetComplex bounds = bounds_of_new_cells(zone);
+        const ComplexMesh new_cells = tetrahedralize(bounds, sizes_, options_, &warnings_);
+        Merged merged = glue(operands_, kept, zone, bounds, new_cells, shell_surface_);
+        verify(merged);
+        return merged;
+    }
+
+  private:
+    /// The kept cells' other faces lie on no surface of the model, and don't move.
+    static RemeshGeometry with_shell(const RemeshGeometry& geometry, std::uint32_t shell) {
+        return {.project = [=](std::span<const std::uint32_t> surfaces,
+                               const Eigen::Vector3d& p) -> std::optional<Eigen::Vector3d> {
+                    if (std::ranges::find(surfaces, shell) != surfaces.end()) return std::nullopt;
+                    return geometry.project(surfaces, p);
+                },
+                .normal = [=](std::uint32_t surface, const Eigen::Vector3d& p) -> Eigen::Vector3d {
+                    return surface == shell ? Eigen::Vector3d::UnitZ().eval() : geometry.normal(surface, p);
+                },
+                .planar = [=](std::uint32_t surface) { return surface != shell && geometry.planar(surface); },
+                .size = geometry.size};
+    }
+
+    static std::string names(std::span<const Operand> operands) {
+        constexpr std::size_t most = 4;
+        std::string text;
+        for (std::size_t i = 0; i < std::min(operands.size(), most); ++i)
+            text += (i > 0 ? ", " : "") + operands[i].name;
+        return operands.size() > most ? fmt::format("{} and {} others", text, operands.size() - most) : text;
+    }
+
+    KeptCells nothing_kept() const {
+        KeptCells kept;
+        for (const Operand& operand : operands_) kept.emplace_back(operand.mesh.n_cells());
+        return kept;
+    }
+
+    void remesh_surface(FacetComplex& zone) const {
+        if (std::ranges::all_of(zone.facets, &Facet::frozen)) return;
+        if (remesh(zone, geometry_).rolled_back)
+            warnings_.push_back("remeshing the surfaces was undone, because they came to cross each other");
+    }
+
+    std::span<const Operand> operands_;
+    const CsgTree& tree_;
+    RemeshGeometry geometry_;
+    std::uint32_t shell_surface_;
+    TetrahedralizeOptions options_;
+    std::vector<double> sizes_;
+    std::vector<std::string>& warnings_;
+};
+
+FacetComplex arranged_surfaces(std::span<const Operand> operands, const CsgTree& tree) {
+    std::vector<ClosedSurface> surfaces;
+    for (const Operand& operand : operands) surfaces.push_back(operand.surface);
+    return arrange(surfaces, tree).complex;
+}
+
+}  // namespace
+
+Merged merge_operands(std::span<const Operand> operands, const CsgTree& tree, const RemeshGeometry& geometry,
+                      std::uint32_t n_surfaces, const MergeSettings& settings,
+                      std::vector<std::string>& warnings) {
+    const FacetComplex interface = arranged_surfaces(operands, tree);
+    if (interface.facets.empty()) throw InputError("the model is empty: its operations leave no volume");
+    const Merger merger(operands, tree, geometry, n_surfaces, settings.time_limit, warnings);
+    for (const Way& way : first_ways) {
+        if (way.keep_cells && !settings.keep_cells) continue;
+        try {
+            return merger.merge(interface, way);
+        } catch (const InputError& error) {
+            warnings.push_back(fmt::format("{} failed: {}", way.words, error.what()));
+        }
+    }
+    return merger.merge(interface, last_way);
+}
+
+}  // namespace maille::modeler
