@@ -1,0 +1,99 @@
+#include "modeler/tessellate.hh"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "modeler/tessellate_improve.hh"
+#include "modeler/tessellate_seed.hh"
+#include "volmesh/error.hh"
+
+namespace maille::modeler {
+namespace {
+
+using volmesh::TriMesh;
+using SurfaceProperty = OpenMesh::FPropHandleT<std::uint32_t>;
+constexpr const char* surface_property = "surface";
+
+/// Area in triangles of the wanted size, roughly: the bounding box's area is no less than half the solid's.
+void check_count(const Shape& shape, const TessellateOptions& options) {
+    constexpr double most = 5e7;
+    const Eigen::Vector3d d = shape.bounding_box().sizes();
+    double length = options.size;
+    if (options.chord_tolerance > 0)
+        for (std::uint32_t face = 0; face < shape.faces().size(); ++face)
+            length = std::min(length, Sizing(shape, options).for_curvature(shape.max_curvature(face)));
+    const double area = 2 * (d.x() * d.y() + d.y() * d.z() + d.z() * d.x());
+    const double triangles = area / (length * length * std::sqrt(3) / 4);
+    if (!(triangles < most))
+        throw InputError(
+            fmt::format("edges of {:.3g} make some {:.2g} triangles of the surface; the most is {:.2g}: "
+                        "give a larger size",
+                        length, triangles, most));
+}
+
+SurfaceSeed seed_any(const Shape& shape, const Sizing& sizing) {
+    if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(&shape))
+        return seed_surface(*ellipsoid, sizing);
+    if (const auto* torus = dynamic_cast<const Torus*>(&shape)) return seed_surface(*torus, sizing);
+    if (const auto* cone = dynamic_cast<const Cone*>(&shape)) return seed_surface(*cone, sizing);
+    if (const auto* polyhedron = dynamic_cast<const Polyhedron*>(&shape))
+        return seed_surface(*polyhedron, sizing);
+    throw std::logic_error("a shape of a kind that cannot be tessellated");
+}
+
+TriMesh to_mesh(const SurfaceSeed& seed) {
+    TriMesh mesh;
+    mesh.reserve(seed.points.size(), 3 * seed.triangles.size() / 2, seed.triangles.size());
+    for (const Point& p : seed.points) mesh.add_vertex(p);
+    SurfaceProperty property;
+    mesh.add_property(property, surface_property);
+    for (std::size_t i = 0; i < seed.triangles.size(); ++i) {
+        const auto [a, b, c] = seed.triangles[i];
+        const auto handle = [](std::uint32_t vertex) {
+            return TriMesh::VertexHandle(static_cast<int>(vertex));
+        };
+        const auto face = mesh.add_face(handle(a), handle(b), handle(c));
+        if (!face.is_valid()) throw std::logic_error("the tessellation of a primitive is not a manifold");
+        mesh.property(property, face) = seed.surfaces[i];
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TriMesh tessellate(const Primitive& primitive, const TessellateOptions& options) {
+    if (!(options.size > 0) || !std::isfinite(options.size))
+        throw InputError(
+            fmt::format("the size of the edges is {}; it has to be greater than 0", options.size));
+    if (!(options.chord_tolerance >= 0))
+        throw InputError(
+            fmt::format("the chord tolerance is {}; it must not be negative", options.chord_tolerance));
+    const Shape& shape = *primitive.shape;
+    check_count(shape, options);
+    const Sizing sizing(shape, options);
+    const SurfaceSeed seed = seed_any(shape, sizing);
+    TriMesh mesh = to_mesh(seed);
+    improve(mesh, shape, sizing, seed.corners);
+    return mesh;
+}
+
+TriMesh tessellate(const Primitive& primitive, double size) {
+    return tessellate(primitive, TessellateOptions{.size = size});
+}
+
+std::uint32_t surface_of(const TriMesh& mesh, TriMesh::FaceHandle face) {
+    SurfaceProperty property;
+    if (!mesh.get_property_handle(property, surface_property))
+        throw std::logic_error("the mesh does not know the surfaces of its triangles");
+    return mesh.property(property, face);
+}
+
+void set_surface(TriMesh& mesh, TriMesh::FaceHandle face, std::uint32_t surface) {
+    SurfaceProperty property;
+    if (!mesh.get_property_handle(property, surface_property)) mesh.add_property(property, surface_property);
+    mesh.property(property, face) = surface;
+}
+
+}  // namespace maille::modeler

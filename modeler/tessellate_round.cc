@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "modeler/shape_frame.hh"
+#include "modeler/tessellate_seed.hh"
+
+namespace maille::modeler {
+namespace {
+
+int to_count(double wanted, int least) {
+    return std::max(least, static_cast<int>(std::lround(wanted)));
+}
+
+bool is_mirror(const Eigen::Affine3d& map) {
+    return map.linear().determinant() < 0;
+}
+
+struct Icosahedron {
+    std::array<Point, 12> corners;
+    std::vector<Triangle> faces;
+};
+
+/// One that is symmetric to the three coordinate planes.
+Icosahedron make_icosahedron() {
+    Icosahedron result;
+    int next = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        for (double a : {-1.0, 1.0})
+            for (double b : {-std::numbers::phi, std::numbers::phi}) {
+                Point& corner = result.corners[next++];
+                corner[axis] = 0;
+                corner[(axis + 1) % 3] = a;
+                corner[(axis + 2) % 3] = b;
+            }
+    const auto adjacent = [&](std::uint32_t i, std::uint32_t j) {
+        return (result.corners[i] - result.corners[j]).squaredNorm() < 4.1;
+    };
+    for (std::uint32_t i = 0; i < 12; ++i)
+        for (std::uint32_t j = i + 1; j < 12; ++j)
+            for (std::uint32_t k = j + 1; k < 12; ++k) {
+                if (!adjacent(i, j) || !adjacent(j, k) || !adjacent(i, k)) continue;
+                const auto& c = result.corners;
+                const bool outward = c[i].cross(c[j]).dot(c[k]) > 0;
+                result.faces.push_back(outward ? Triangle{i, j, k} : Triangle{i, k, j});
+            }
+    return result;
+}
+
+/// A row of points around the axis of a cone: `count` of them, the first `offset` half steps on.
+struct Row {
+    std::uint32_t first = 0;
+    int count = 0;
+    int offset = 0;
+
+    double share(int k) const { return (2 * k + offset) / (2.0 * count); }
+    std::uint32_t at(int k) const { return first + static_cast<std::uint32_t>(k % count); }
+};
+
+/// The band between two rows: always the shorter of the two possible next edges.
+void stitch(SurfaceSeed& seed, const Row& lower, const Row& upper, std::uint32_t surface, bool mirrored) {
+    // A row of one point is an apex: nothing runs along it.
+    const int lower_edges = lower.count > 1 ? lower.count : 0,
+              upper_edges = upper.count > 1 ? upper.count : 0;
+    int i = 0, j = 0;
+    while (i < lower_edges || j < upper_edges) {
+        const bool along_lower =
+            j == upper_edges ||
+            (i < lower_edges && lower.share(i + 1) - upper.share(j) <= upper.share(j + 1) - lower.share(i));
+        if (along_lower) {
+            seed.add_triangle({lower.at(i), lower.at(i + 1), upper.at(j)}, surface, mirrored);
+            ++i;
+        } else {
+            seed.add_triangle({lower.at(i), upper.at(j + 1), upper.at(j)}, surface, mirrored);
+            ++j;
+        }
+    }
+}
+
+/// How points are spread around the cross-sections of a cone: evenly on a circle, by the wanted sizes on an
+/// ellipse.
+class Circumference {
+  public:
+    Circumference(const Cone& cone, const Sizing& sizing, double radius)
+        : x_(cone.map().linear().col(0)),
+          y_(cone.map().linear().col(1)),
+          sizing_(sizing),
+          length_{0},
+          steps_{0} {
+        is_circle_ = std::abs(x_.squaredNorm() - y_.squaredNorm()) < 1e-13 * x_.squaredNorm() &&
+                     std::abs(x_.dot(y_)) < 1e-13 * x_.squaredNorm();
+        for (int i = 0; i < samples; ++i) {
+            const Eigen::Vector2d u = unit_circle(2 * i + 1, 2 * samples);
+            const double speed = (u.x() * y_ - u.y() * x_).norm();
+            const double curvature = x_.cross(y_).norm() / (radius * std::pow(speed, 3));
+            const double step = radius * speed * 2 * std::numbers::pi / samples;
+            length_[i + 1] = length_[i] + step;
+            steps_[i + 1] = steps_[i] + step / sizing.for_curvature(curvature);
+        }
+    }
+
+    double length() const { return length_.back(); }
+    /// Number of edges that the sizes ask for.
+    double edges() const { return steps_.back(); }
+
+    /// Direction of the point k of n, in the reference plane.
+    Eigen::Vector2d direction(int k, int n) const {
+        if (is_circle_) return unit_circle(k, n);
+        const double wanted = edges() * (k % n) / n;
+        const auto after = std::ranges::upper_bound(steps_, wanted);
+        const auto i = std::clamp<std::ptrdiff_t>(after - steps_.begin() - 1, 0, samples - 1);
+        const double part = (wanted - steps_[i]) / (steps_[i + 1] - steps_[i]);
+        const double angle = 2 * std::numbers::pi * (static_cast<double>(i) + part) / samples;
+        return {std::cos(angle), std::sin(angle)};
+    }
+
+  private:
+    static constexpr int samples = 720;
+    Point x_, y_;
+    const Sizing& sizing_;
+    bool is_circle_;
+    std::array<double, samples + 1> length_, steps_;
+};
+
+/// Sharp curves have a multiple of four edges, for symmetry's sake.
+int rim_count(const Circumference& rim) {
+    return 4 * to_count(rim.edges() / 4, 2);
+}
+
+/// Heights of the rows, from 0 to 1: closer where the rows are shorter of edge.
+std::vector<double> row_heights(const Cone& cone, const Sizing& sizing) {
+    constexpr int samples = 256;
+    double slant = 0;
+    for (int i = 0; i < 8; ++i) {
+        const Eigen::Vector2d u = unit_circle(i, 8) * (cone.radius(1) - cone.radius(0));
+        slant += (cone.map().linear() * Point(u.x(), u.y(), 1)).norm() / 8;
+    }
+    std::vector<double> length(samples);
+    for (int i = 0; i < samples; ++i) {
+        const Circumference row(cone, sizing, cone.radius((i + 0.5) / samples));
+        length[i] = std::max(row.length() / std::max(row.edges(), 6.0), sizing.smallest(0));
+    }
+    constexpr double growth = 0.5;  // of an edge's length per way along the slant
+    const double step = slant / samples;
+    for (int i = 1; i < samples; ++i) length[i] = std::min(length[i], length[i - 1] + growth * step);
+    for (int i = samples - 1; i-- > 0;) length[i] = std::min(length[i], length[i + 1] + growth * step);
+
+    std::vector<double> rows(samples + 1, 0);
+    for (int i = 0; i < samples; ++i) rows[i + 1] = rows[i] + step / (length[i] * std::numbers::sqrt3 / 2);
+    const int count = to_count(rows.back(), 1);
+    std::vector<double> heights;
+    for (int k = 0, i = 0; k < count; ++k) {
+        const double wanted = rows.back() * k / count;
+        while (rows[i + 1] <= wanted) ++i;
+        heights.push_back((i + (wanted - rows[i]) / (rows[i + 1] - rows[i])) / samples);
+    }
+    heights.push_back(1);
+    return heights;
+}
+
+}  // namespace
+
+SurfaceSeed seed_surface(const Ellipsoid& shape, const Sizing& sizing) {
+    const Icosahedron icosahedron = make_icosahedron();
+    const double radius = std::cbrt(shape.semi_axes().prod());
+    constexpr double edge_angle = 1.1071487177940904;  // of the icosahedron: arctan 2
+    const int n = to_count(edge_angle * radius / sizing.for_curvature(1 / radius), 2);
+
+    SurfaceSeed seed;
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> edge_points;
+    const auto& c = icosahedron.corners;
+    const auto place = [&](const Point& p) { return seed.add_point(shape.map() * p.normalized()); };
+    for (const Point& corner : c) place(corner);
+    // Point i of n - 1 from corner a to b.
+    const auto on_edge = [&](std::uint32_t a, std::uint32_t b, int i) {
+        const bool forward = a < b;
+        const auto [entry, is_new] = edge_points.try_emplace({std::min(a, b), std::max(a, b)},
+                                                             static_cast<std::uint32_t>(seed.points.size()));
+        if (is_new)
+            for (int k = 1; k < n; ++k) place((n - k) * c[entry->first[0]] + k * c[entry->first[1]]);
+        return entry->second + static_cast<std::uint32_t>((forward ? i : n - i) - 1);
+    };
+    for (const Triangle& face : icosahedron.faces) {
+        // Row i holds i + 1 points, from the edge 0-1 to the edge 0-2.
+        std::vector<std::vector<std::uint32_t>> rows(n + 1);
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; j <= i; ++j) {
+                std::uint32_t vertex = 0;
+                if (i == 0)
+                    vertex = face[0];
+                else if (i == n)
+                    vertex = j == 0 ? face[1] : j == n ? face[2] : on_edge(face[1], face[2], j);
+                else if (j == 0)
+                    vertex = on_edge(face[0], face[1], i);
+                else if (j == i)
+                    vertex = on_edge(face[0], face[2], i);
+                else
+                    vertex = place((n - i) * c[face[0]] + (i - j) * c[face[1]] + j * c[face[2]]);
+                rows[i].push_back(vertex);
+            }
+        const bool mirrored = is_mirror(shape.map());
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j <= i; ++j) {
+                seed.add_triangle({rows[i][j], rows[i + 1][j], rows[i + 1][j + 1]}, 0, mirrored);
+                if (j < i) seed.add_triangle({rows[i][j], rows[i + 1][j + 1], rows[i][j + 1]}, 0, mirrored);
+            }
+    }
+    return seed;
+}
+
+SurfaceSeed seed_surface(const Torus& shape, const Sizing& sizing) {
+    const double scale = std::cbrt(std::abs(shape.map().linear().determinant()));
+    const double minor = scale * shape.minor(), major = scale * shape.major();
+    const double size = sizing.for_curvature(1 / minor);
+    // Every other row is half a step on, so that the number of rows is even.
+    const int rows = 2 * to_count(std::numbers::pi * minor / (size * std::numbers::sqrt3 / 2), 4);
+    const int count = 4 * to_count(std::numbers::pi * major / (2 * size), 2);
+    SurfaceSeed seed;
+    std::vector<Row> row;
+    for (int j = 0; j < rows; ++j) {
+        row.push_back({static_cast<std::uint32_t>(seed.points.size()), count, j % 2});
+        const Eigen::Vector2d v = shape.minor() * unit_circle(j, rows);
+        for (int i = 0; i < count; ++i) {
+            const Eigen::Vector2d u = unit_circle(2 * i + j % 2, 2 * count) * (shape.major() + v.x());
+            seed.add_point(shape.map() * Point(u.x(), u.y(), v.y()));
+        }
+    }
+    for (int j = 0; j < rows; ++j) stitch(seed, row[j], row[(j + 1) % rows], 0, is_mirror(shape.map()));
+    return seed;
+}
+
+SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing) {
+    const Circumference widest(shape, sizing, 1);
+    const bool is_cylinder = shape.radius(0) == shape.radius(1);
+    const bool mirrored = is_mirror(shape.map());
+    const auto place = [&](const Eigen::Vector2d& xy, double z) {
+        const double radius = shape.radius(z);
+        return Point(shape.map() * Point(radius * xy.x(), radius * xy.y(), z));
+    };
+
+    SurfaceSeed seed;
+    Row previous;
+    const std::vector<double> heights = row_heights(shape, sizing);
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        const double z = heights[k], radius = shape.radius(z);
+        const bool is_end = k == 0 || k + 1 == heights.size();
+        Row row{.first = static_cast<std::uint32_t>(seed.points.size()), .count = 1, .offset = 0};
+        if (radius > 0) {
+            const Circumference circumference(shape, sizing, radius);
+            row.count = is_cylinder || is_end ? rim_count(circumference) : to_count(circumference.edges(), 6);
+            row.offset = static_cast<int>(k % 2);
+            const auto cap = is_end ? shape.cap(k != 0) : std::nullopt;
+            std::vector<std::uint32_t> loop;
+            for (int i = 0; i < row.count; ++i) {
+                const Point p = place(widest.direction(2 * i + row.offset, 2 * row.count), z);
+                loop.push_back(seed.add_point(cap ? shape.project(*cap, p) : p));
+            }
+            if ((k == 0) != mirrored) std::ranges::reverse(loop);
+            if (cap) {
+                const Point centre = place(Eigen::Vector2d::Zero(), z);
+                fill_planar_face(seed, Plane(centre, shape.face_normal(*cap, centre)), {loop}, *cap,
+                                 sizing.size());
+            }
+        } else {
+            seed.corners.push_back(seed.add_point(place(Eigen::Vector2d::Zero(), z)));
+        }
+        if (k > 0) stitch(seed, previous, row, 0, mirrored);
+        previous = row;
+    }
+    return seed;
+}
+
+}  // namespace maille::modeler
