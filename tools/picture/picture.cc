@@ -1,5 +1,7 @@
 #include "tools/picture/picture.hh"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "tools/picture/camera.hh"
@@ -38,20 +40,19 @@ std::vector<Eigen::Vector3f> seen_points(const Scene& scene) {
 
 }  // namespace
 
-std::vector<Plane> front_cut(const volmesh::TetMesh& mesh, const Eigen::Vector3d& view) {
+Plane front_cut(const volmesh::TetMesh& mesh, const Eigen::Vector3d& view) {
     Eigen::AlignedBox3d box;
     for (std::uint32_t i = 0; i < mesh.n_vertices(); ++i)
         if (!mesh.is_deleted(volmesh::VertexHandle(i))) box.extend(mesh.point(volmesh::VertexHandle(i)));
-    std::vector<Plane> planes;
-    for (int axis : {0, 1})
-        planes.emplace_back(Eigen::Vector3d::Unit(axis) * (view[axis] < 0 ? -1 : 1), box.center());
-    return planes;
+    const int axis = std::abs(view.x()) > std::abs(view.y()) ? 0 : 1;
+    return {Eigen::Vector3d::Unit(axis) * (view[axis] < 0 ? -1 : 1), box.center()};
 }
 
 void write_picture(const volmesh::TetMesh& mesh, const std::filesystem::path& path,
                    const PictureOptions& options) {
     check(options);
-    const Scene scene = make_scene(mesh, options.cut ? *options.cut : front_cut(mesh, options.view));
+    const Scene scene =
+        make_scene(mesh, options.cut ? *options.cut : std::vector{front_cut(mesh, options.view)});
     Image image(options.width, options.height);
     const int legend = options.legend ? legend_width(scene.legend, options.height) : 0;
     const Camera camera(options.view, seen_points(scene), frame_beside(legend, image));

@@ -22,8 +22,8 @@ struct PictureOptions {
     bool legend = true;  ///< names of the cell sets and of the boundary's face sets
 };
 
-/// The planes through the middle of the mesh that part the quarter nearest to the eye.
-std::vector<Plane> front_cut(const volmesh::TetMesh& mesh, const Eigen::Vector3d& view);
+/// The upright plane through the middle of the mesh, across x or y, that parts the half nearer to the eye.
+Plane front_cut(const volmesh::TetMesh& mesh, const Eigen::Vector3d& view);
 
 /// Draws the mesh in a PNG file, with ray tracing and without a display: cells in the colours of their cell
 /// sets, the boundary in tints by face set, mesh edges as thin lines and the edges between face sets as

@@ -106,10 +106,13 @@ class Renderer {
         if (!(direction.z() < 0) || !(drop < 0)) return Color::Ones();
         const Vector3f place = camera_.eye() + drop / direction.z() * direction;
         if (place.head<2>().norm() > 1 + shadow_reach) return Color::Ones();
-        const auto hit = tracer_.first(place, towards_sky(Vector3f::UnitZ(), samples.next()), shadow_reach);
-        if (!hit) return Color::Ones();
-        const float nearness = 1 - hit->distance / shadow_reach;
-        return mix(Color::Ones(), from_web(0x303848), 0.6F * nearness * nearness);
+        float hidden = 0;
+        for (int k = 0; k < rays_to_the_sky; ++k) {
+            const auto hit =
+                tracer_.first(place, towards_sky(Vector3f::UnitZ(), samples.next()), shadow_reach);
+            if (hit) hidden += std::pow(1 - hit->distance / shadow_reach, 2.0F) / rays_to_the_sky;
+        }
+        return mix(Color::Ones(), from_web(0x303848), 0.6F * hidden);
     }
 
     Color light(const Scene::Triangle& t, const Vector3f& place, Samples& samples) const {
