@@ -1,0 +1,125 @@
+#include "modeler/arrange.hh"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "modeler/arrange_boxes.hh"
+#include "modeler/arrange_cluster.hh"
+#include "modeler/arrange_label.hh"
+#include "modeler/arrange_scene.hh"
+#include "modeler/arrange_self_intersection.hh"
+#include "modeler/arrange_simplify.hh"
+#include "volmesh/error.hh"
+
+namespace maille::modeler {
+
+namespace {
+
+using namespace detail;
+
+Arrangement arrange_pairs(const Scene& scene, const ExactPositions& positions, std::span<const Pair> pairs,
+                          const CsgTree& tree) {
+    PointRegistry registry(positions.points, 1e-6 * diagonal(scene.complex));
+    const Contacts contacts = intersect(scene.complex, positions, pairs, registry);
+    const Subdivision subdivision = subdivide(scene.complex, positions, contacts, registry);
+    const std::vector<Sides> sides = label_sheets(subdivision, scene.complex, positions, registry, tree);
+    return simplify(subdivision, sides, scene, registry);
+}
+
+/// Pairs of near facets of different primitives, and of facets without area with all others.
+std::vector<Pair> pairs_to_intersect(const FacetComplex& complex, double margin) {
+    const std::vector<bool> degenerate = degenerate_facets(complex, positions_as_given(complex));
+    return pairs_of_near_facets(complex, margin, [&](std::uint32_t i, std::uint32_t j) {
+        return complex.facets[i].back != complex.facets[j].back || degenerate[i] || degenerate[j];
+    });
+}
+
+/// The pairs that make a complex unfit: those that cross, and facets without area with all near ones. Nothing
+/// if it is fit.
+std::optional<std::vector<Pair>> pairs_to_repair(const FacetComplex& complex) {
+    const std::vector<SelfIntersection> found = find_self_intersections(complex);
+    if (found.empty()) return std::nullopt;
+    std::vector<Pair> pairs;
+    std::vector<bool> degenerate(complex.facets.size());
+    for (const auto& [i, j] : found) {
+        if (i == j)
+            degenerate[i] = true;
+        else
+            pairs.emplace_back(i, j);
+    }
+    const auto near =
+        pairs_of_near_facets(complex, 0, [&](auto i, auto j) { return degenerate[i] || degenerate[j]; });
+    pairs.insert(pairs.end(), near.begin(), near.end());
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+/// The tree that takes each region as a primitive; the earlier one wins where rounding made them overlap.
+CsgTree tree_of_regions(const FacetComplex& complex) {
+    std::vector<Region> regions;
+    for (const Facet& f : complex.facets)
+        for (const auto r : {f.front, f.back})
+            if (r != outside) regions.push_back(r);
+    std::ranges::sort(regions);
+    regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+    CsgTree tree{Operation::fragment};
+    for (const auto r : regions) tree.children.push_back({Operation::leaf, static_cast<std::uint32_t>(r)});
+    return tree;
+}
+
+void mark_whole_facets(Arrangement& arrangement, std::span<const ClosedSurface> primitives) {
+    const auto less = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    for (std::size_t i = 0; i < arrangement.parents.size(); ++i) {
+        FacetParent& parent = arrangement.parents[i];
+        const ClosedSurface& surface = primitives[parent.primitive];
+        std::array<Eigen::Vector3d, 3> now, before;
+        for (std::size_t k = 0; k < 3; ++k) {
+            now[k] = arrangement.complex.points[arrangement.complex.facets[i].vertices[k]];
+            before[k] = surface.points[surface.triangles[parent.triangle][k]];
+        }
+        std::ranges::sort(now, less);
+        std::ranges::sort(before, less);
+        parent.whole = now == before;
+    }
+}
+
+void check_tree(const CsgTree& tree, std::size_t n_primitives) {
+    if (tree.operation == Operation::leaf && tree.primitive >= n_primitives)
+        throw InputError(
+            fmt::format("the tree names primitive {}, but there are only {}", tree.primitive, n_primitives));
+    for (const CsgTree& child : tree.children) check_tree(child, n_primitives);
+}
+
+}  // namespace
+
+Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tree,
+                    const ArrangeOptions& options) {
+    check_tree(tree, primitives.size());
+    Scene scene = gather(primitives);
+    const double weld_distance = tolerance(scene.complex, options.weld);
+    weld(scene, weld_distance);
+    if (scene.complex.facets.empty()) return {};
+    const std::vector<Pair> pairs = pairs_to_intersect(scene.complex, weld_distance);
+    Arrangement result =
+        arrange_pairs(scene, positions_on_planes(scene.complex, pairs, weld_distance), pairs, tree);
+    for (int round = 0; round <= options.max_repairs; ++round) {
+        weld(result, weld_distance);
+        const auto crossing = pairs_to_repair(result.complex);
+        if (!crossing) {
+            mark_whole_facets(result, primitives);
+            return result;
+        }
+        result = arrange_pairs(result, positions_as_given(result.complex), *crossing,
+                               tree_of_regions(result.complex));
+    }
+    throw InputError(
+        "the surfaces of the model come so near to each other that they cannot be told apart in double "
+        "precision; "
+        "move them apart or make them coincide");
+}
+
+}  // namespace maille::modeler

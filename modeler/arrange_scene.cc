@@ -1,0 +1,173 @@
+#include "modeler/arrange_scene.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "volmesh/error.hh"
+
+namespace maille::modeler::detail {
+
+namespace {
+
+/// Every edge must be used as often in one direction as in the other.
+void check_closed(const ClosedSurface& surface, std::size_t primitive) {
+    std::vector<std::pair<std::uint64_t, int>> uses;
+    uses.reserve(3 * surface.triangles.size());
+    for (const auto& t : surface.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = t[k], b = t[(k + 1) % 3];
+            if (a != b) uses.emplace_back(edge_key(a, b), a < b ? 1 : -1);
+        }
+    std::ranges::sort(uses);
+    for (std::size_t i = 0; i < uses.size();) {
+        int balance = 0;
+        const auto key = uses[i].first;
+        for (; i < uses.size() && uses[i].first == key; ++i) balance += uses[i].second;
+        if (balance != 0)
+            throw InputError(
+                fmt::format("the surface of primitive {} is not closed: its edge between points {} and {} "
+                            "borders facets that "
+                            "do not match; close the surface and orient its facets alike",
+                            primitive, key >> 32, key & 0xffffffffU));
+    }
+}
+
+void check(const ClosedSurface& surface, std::size_t primitive) {
+    for (std::size_t i = 0; i < surface.points.size(); ++i)
+        if (!surface.points[i].allFinite())
+            throw InputError(fmt::format("point {} of primitive {} is not finite", i, primitive));
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+        for (const auto v : surface.triangles[i])
+            if (v >= surface.points.size())
+                throw InputError(
+                    fmt::format("triangle {} of primitive {} uses point {}, but there are only {}", i,
+                                primitive, v, surface.points.size()));
+    if (surface.surfaces.size() != surface.triangles.size())
+        throw InputError(fmt::format("primitive {} has {} triangles but {} surface numbers", primitive,
+                                     surface.triangles.size(), surface.surfaces.size()));
+    check_closed(surface, primitive);
+}
+
+/// Cells of a grid a few welding distances wide, so that a point rarely has to look into more than its own.
+class PointGrid {
+  public:
+    PointGrid(double distance, const std::vector<Eigen::Vector3d>& points)
+        : distance_(distance), cell_(16 * distance), points_(points) {
+        cells_.reserve(points.size());
+    }
+
+    /// The earliest point added that is nearer than the distance; `i` itself, which is added, if there is
+    /// none.
+    std::uint32_t find_or_add(std::uint32_t i) {
+        const Eigen::Vector3d& p = points_[i];
+        std::uint32_t found = i;
+        const Cell low = cell_of(p.array() - distance_), high = cell_of(p.array() + distance_);
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+            for (std::int64_t y = low[1]; y <= high[1]; ++y)
+                for (std::int64_t z = low[2]; z <= high[2]; ++z)
+                    found = std::min(found, nearest({x, y, z}, p, found));
+        if (found == i) cells_[hash(cell_of(p.array()))].push_back(i);
+        return found;
+    }
+
+  private:
+    using Cell = std::array<std::int64_t, 3>;
+
+    Cell cell_of(const Eigen::Array3d& p) const {
+        const Eigen::Array3d c = (p / cell_).floor();
+        return {static_cast<std::int64_t>(c[0]), static_cast<std::int64_t>(c[1]),
+                static_cast<std::int64_t>(c[2])};
+    }
+    static std::uint64_t hash(const Cell& c) {
+        std::uint64_t h = 0;
+        for (const auto x : c) h = (h ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15U, h ^= h >> 29;
+        return h;
+    }
+    std::uint32_t nearest(const Cell& c, const Eigen::Vector3d& p, std::uint32_t otherwise) const {
+        const auto it = cells_.find(hash(c));
+        if (it == cells_.end()) return otherwise;
+        for (const auto j : it->second)
+            if ((points_[j] - p).norm() <= distance_) return j;
+        return otherwise;
+    }
+
+    double distance_;
+    double cell_;
+    const std::vector<Eigen::Vector3d>& points_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+Eigen::AlignedBox3d bounding_box(const FacetComplex& complex) {
+    Eigen::AlignedBox3d box;
+    for (const auto& p : complex.points) box.extend(p);
+    return box;
+}
+
+}  // namespace
+
+Scene gather(std::span<const ClosedSurface> primitives) {
+    Scene scene;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const ClosedSurface& surface = primitives[i];
+        check(surface, i);
+        const auto first = static_cast<std::uint32_t>(scene.complex.points.size());
+        scene.complex.points.insert(scene.complex.points.end(), surface.points.begin(), surface.points.end());
+        for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+            const auto& v = surface.triangles[t];
+            scene.complex.facets.push_back({{first + v[0], first + v[1], first + v[2]},
+                                            surface.surfaces[t],
+                                            outside,
+                                            static_cast<Region>(i)});
+            scene.parents.push_back({static_cast<std::uint32_t>(i), t, false});
+        }
+    }
+    return scene;
+}
+
+void weld(Scene& scene, double distance) {
+    const auto& points = scene.complex.points;
+    PointGrid grid(distance, points);
+    std::vector<std::uint32_t> new_index(points.size());
+    std::vector<Eigen::Vector3d> kept;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const auto same = grid.find_or_add(i);
+        if (same == i) {
+            new_index[i] = static_cast<std::uint32_t>(kept.size());
+            kept.push_back(points[i]);
+        } else {
+            new_index[i] = new_index[same];
+        }
+    }
+    scene.complex.points = std::move(kept);
+
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < scene.complex.facets.size(); ++i) {
+        Facet facet = scene.complex.facets[i];
+        for (auto& v : facet.vertices) v = new_index[v];
+        const auto& [a, b, c] = facet.vertices;
+        if (a == b || b == c || c == a) continue;
+        scene.complex.facets[n] = facet;
+        scene.parents[n++] = scene.parents[i];
+    }
+    scene.complex.facets.resize(n);
+    scene.parents.resize(n);
+}
+
+double diagonal(const FacetComplex& complex) {
+    return complex.points.empty() ? 0 : bounding_box(complex).diagonal().norm();
+}
+
+double tolerance(const FacetComplex& complex, double relative) {
+    if (complex.points.empty()) return 0;
+    const Eigen::AlignedBox3d box = bounding_box(complex);
+    const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    const double resolution = 8 * std::numeric_limits<double>::epsilon() * largest;
+    return std::max({relative * box.diagonal().norm(), resolution, std::numeric_limits<double>::min()});
+}
+
+}  // namespace maille::modeler::detail

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "modeler/arrange.hh"
+
+namespace maille::modeler::detail {
+
+/// What is to be arranged: facets that may cross and overlap. As the surface of a solid, each facet raises
+/// the winding number of its `back` by one on its back side and that of its `front` on its front side.
+using Scene = Arrangement;
+
+/// The triangles of all primitives, each with its primitive behind it.
+Scene gather(std::span<const ClosedSurface> primitives);
+
+/// Makes points nearer than `distance` one (the earliest of them) and drops the facets that vanish by it.
+void weld(Scene& scene, double distance);
+
+/// Diagonal of the box of all points.
+double diagonal(const FacetComplex& complex);
+
+/// The distance below which places count as one: `relative` to the diagonal, but not finer than what the
+/// coordinates can tell apart.
+double tolerance(const FacetComplex& complex, double relative);
+
+/// The key of an edge, whichever way it runs.
+constexpr std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+}
+
+}  // namespace maille::modeler::detail

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace maille::modeler::detail {
+
+/// Disjoint sets of numbers. The smallest member stands for its set.
+class UnionFind {
+  public:
+    explicit UnionFind(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
+
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        const auto [low, high] = std::minmax({find(a), find(b)});
+        parent_[high] = low;
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace maille::modeler::detail
