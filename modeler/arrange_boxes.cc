@@ -27,7 +27,7 @@ std::vector<Pair> pairs_of_near_facets(const FacetComplex& complex, double margi
     }
     std::vector<Pair> pairs;
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-        const auto [i, j] = std::minmax(a.info(), b.info());
+        const auto [i, j] = std::minmax({a.info(), b.info()});
         if (wanted(i, j)) pairs.emplace_back(i, j);
     });
     std::ranges::sort(pairs);
