@@ -56,24 +56,26 @@ bool in_one_plane(const Patch& a, const Patch& b) {
     return a.planar && a.surface == b.surface;
 }
 
+Eigen::AlignedBox3d box_of(const Corners& corners) {
+    Eigen::AlignedBox3d box(corners[0]);
+    return box.extend(corners[1]).extend(corners[2]);
+}
+
 bool meets_a_neighbour(const Net& net, const std::vector<PlacedTriangle>& added, const Change& change) {
     std::vector<Index> nearby;
-    for (std::size_t i = 0; i < added.size(); ++i) {
-        const Corners& corners = added[i].corners;
-        const Patch& patch = net.patch(change.added[i]);
-        const Eigen::Array3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-        const Eigen::Array3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-        nearby.clear();
-        net.grid().collect(corners, nearby);
-        for (const Index t : nearby) {
-            if (in_one_plane(patch, net.patch(t))) continue;
-            if (std::ranges::find(change.removed, t) != change.removed.end()) continue;
-            const PlacedTriangle other = placed(net, t);
-            const auto& c = other.corners;
-            const Eigen::Array3d other_low = c[0].cwiseMin(c[1]).cwiseMin(c[2]);
-            const Eigen::Array3d other_high = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
-            if ((other_low > high).any() || (other_high < low).any()) continue;
-            if (collide(added[i], other)) return true;
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const PlacedTriangle& triangle : added) {
+        net.grid().collect(triangle.corners, nearby);
+        boxes.push_back(box_of(triangle.corners));
+    }
+    std::ranges::sort(nearby);
+    nearby.erase(std::ranges::unique(nearby).begin(), nearby.end());
+    for (const Index t : nearby) {
+        const Eigen::AlignedBox3d box = box_of(net.corners(t));
+        for (std::size_t i = 0; i < added.size(); ++i) {
+            if (!box.intersects(boxes[i]) || in_one_plane(net.patch(change.added[i]), net.patch(t))) continue;
+            if (std::ranges::find(change.removed, t) != change.removed.end()) break;
+            if (collide(added[i], placed(net, t))) return true;
         }
     }
     return false;

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <queue>
-#include <tuple>
+#include <utility>
 
 #include "modeler/remesh_check.hh"
 #include "modeler/remesh_passes.hh"
@@ -110,7 +110,9 @@ std::size_t collapse_edges(Session& session) {
     const auto consider = [&](Index a, Index b) {
         if (const auto edge = candidate(session, a, b)) queue.push(*edge);
     };
-    for (const auto& [a, b] : net.edges()) consider(a, b);
+    const std::uint64_t since = std::exchange(session.collapsed, net.now());
+    for (const auto& [a, b] : net.edges())
+        if (net.touched(a) >= since || net.touched(b) >= since) consider(a, b);
 
     std::size_t done = 0;
     while (!queue.empty()) {

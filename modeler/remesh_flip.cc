@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "modeler/remesh_check.hh"
 #include "modeler/remesh_passes.hh"
@@ -36,8 +37,11 @@ bool try_flip(Session& session, Index a, Index b) {
 std::size_t flip_edges(Session& session) {
     std::size_t done = 0;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+        const std::uint64_t since = std::exchange(session.flipped, session.net.now());
         std::size_t flips = 0;
-        for (const auto& [a, b] : session.net.edges()) flips += try_flip(session, a, b) ? 1 : 0;
+        for (const auto& [a, b] : session.net.edges())
+            if (session.net.touched(a) >= since && session.net.touched(b) >= since && try_flip(session, a, b))
+                ++flips;
         done += flips;
         if (flips == 0) break;
     }

@@ -89,12 +89,9 @@ void TriangleGrid::erase(Index triangle, const Corners& corners) {
     }
 }
 
-void TriangleGrid::collect(std::vector<std::size_t>& buckets, std::vector<Index>& found) const {
-    const auto old_size = static_cast<std::ptrdiff_t>(found.size());
+void TriangleGrid::collect(const std::vector<std::size_t>& buckets, std::vector<Index>& found) const {
     for (const std::size_t bucket : buckets)
         found.insert(found.end(), buckets_[bucket].begin(), buckets_[bucket].end());
-    std::sort(found.begin() + old_size, found.end());
-    found.erase(std::unique(found.begin() + old_size, found.end()), found.end());
 }
 
 void TriangleGrid::collect(const Corners& corners, std::vector<Index>& found) const {

@@ -26,8 +26,8 @@ class TriangleGrid {
     /// Takes out what was inserted with the same corners.
     void erase(Index triangle, const Corners& corners);
 
-    /// Appends the triangles of the cells that these corners, or this box, may touch: each once, and some
-    /// that are further away. A triangle that is already in `found` may come again.
+    /// Appends the triangles of the cells that these corners, or this box, may touch: some of them several
+    /// times, and some that are further away.
     void collect(const Corners& corners, std::vector<Index>& found) const;
     void collect(const Eigen::AlignedBox3d& box, std::vector<Index>& found) const;
 
@@ -38,7 +38,7 @@ class TriangleGrid {
     std::size_t bucket_of(const Cell& cell) const;
     /// The buckets that the triangle falls into, each once.
     void buckets_of(const Corners& corners, std::vector<std::size_t>& buckets) const;
-    void collect(std::vector<std::size_t>& buckets, std::vector<Index>& found) const;
+    void collect(const std::vector<std::size_t>& buckets, std::vector<Index>& found) const;
 
     double cell_ = 1;
     std::vector<std::vector<Index>> buckets_;

@@ -43,6 +43,7 @@ Index Net::add_vertex(const Vec3& point, VertexKind kind, double size) {
     points_.push_back(point);
     kinds_.push_back(kind);
     sizes_.push_back(size);
+    touched_.push_back(now_);
     around_.emplace_back();
     return n_vertices() - 1;
 }
@@ -52,6 +53,7 @@ void Net::drop_last_vertex() {
     points_.pop_back();
     kinds_.pop_back();
     sizes_.pop_back();
+    touched_.pop_back();
     around_.pop_back();
 }
 
@@ -68,16 +70,28 @@ void Net::add_triangle(const Triangle& triangle) {
 }
 
 void Net::attach(Index t) {
-    for (const Index v : triangles_[t].vertices) around_[v].push_back(t);
+    for (const Index v : triangles_[t].vertices) {
+        around_[v].push_back(t);
+        touched_[v] = now_;
+    }
     grid_.insert(t, corners(t));
 }
 
 void Net::detach(Index t) {
-    for (const Index v : triangles_[t].vertices) std::erase(around_[v], t);
+    for (const Index v : triangles_[t].vertices) {
+        std::erase(around_[v], t);
+        touched_[v] = now_;
+    }
     grid_.erase(t, corners(t));
 }
 
+void Net::set_size(Index v, double size) {
+    if (sizes_[v] != size) touched_[v] = ++now_;
+    sizes_[v] = size;
+}
+
 void Net::apply(const Change& change) {
+    ++now_;
     for (const Index t : change.removed) detach(t);
     if (change.moved != none) points_[change.moved] = change.position;
     // A change with as many triangles as before keeps their numbers.
@@ -86,6 +100,7 @@ void Net::apply(const Change& change) {
         unused_.push_back(change.removed[i]);
     }
     for (const Triangle& triangle : change.added) add_triangle(triangle);
+    if (triangles_.size() - unused_.size() > most_in_grid_) rebuild_grid();
 }
 
 void Net::rebuild_grid() {
@@ -99,6 +114,7 @@ void Net::rebuild_grid() {
     const auto middle = longest.begin() + static_cast<std::ptrdiff_t>(longest.size() / 2);
     std::ranges::nth_element(longest, middle);
     grid_.reset(*middle, longest.size());
+    most_in_grid_ = 2 * longest.size();
     for (Index t = 0; t < n_triangles(); ++t)
         if (is_alive(t)) grid_.insert(t, corners(t));
 }

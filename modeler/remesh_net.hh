@@ -55,7 +55,8 @@ class Net {
     void add_triangle(const Triangle& triangle);
     /// Replaces triangles and moves the vertex. Numbers of removed triangles are used again.
     void apply(const Change& change);
-    /// Builds the look-up of places anew, fit for the present lengths of edges.
+    /// Builds the look-up of places anew, fit for the present lengths of edges. It is done again by itself
+    /// when there are twice as many triangles.
     void rebuild_grid();
 
     Index n_vertices() const { return static_cast<Index>(points_.size()); }
@@ -65,7 +66,12 @@ class Net {
     void set_kind(Index v, VertexKind kind) { kinds_[v] = kind; }
     /// The wanted length of edges at the vertex.
     double size(Index v) const { return sizes_[v]; }
-    void set_size(Index v, double size) { sizes_[v] = size; }
+    void set_size(Index v, double size);
+
+    /// Counts the changes.
+    std::uint64_t now() const { return now_; }
+    /// The last change of the triangles or the size at the vertex.
+    std::uint64_t touched(Index v) const { return touched_[v]; }
 
     bool is_alive(Index t) const { return triangles_[t].patch != none; }
     const Triangle& triangle(Index t) const { return triangles_[t]; }
@@ -100,10 +106,13 @@ class Net {
     std::vector<Vec3> points_;
     std::vector<VertexKind> kinds_;
     std::vector<double> sizes_;
+    std::vector<std::uint64_t> touched_;
+    std::uint64_t now_ = 0;
     std::vector<Triangle> triangles_;
     std::vector<std::vector<Index>> around_;
     std::vector<Index> unused_;  // numbers of removed triangles
     TriangleGrid grid_;
+    std::size_t most_in_grid_ = std::numeric_limits<std::size_t>::max();
 };
 
 /// The vertex of the triangle that is neither a nor b.

@@ -12,6 +12,12 @@ struct Session {
     const RemeshOptions& options;
     RemeshReport report{};
     double good = 0.5;  ///< sine of the smallest angle that is good enough
+
+    // When each pass began last: what has not been touched since need not be looked at again.
+    std::uint64_t collapsed = 0;
+    std::uint64_t flipped = 0;
+    std::uint64_t snapped = 0;
+    std::uint64_t smoothed = 0;
 };
 
 }  // namespace maille::modeler::remeshing

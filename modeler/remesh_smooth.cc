@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -14,7 +15,7 @@ namespace {
 constexpr double on_surface = 1e-13;      // of the size
 constexpr double projection_reach = 1.0;  // of the size: further away no surface is meant
 constexpr double least_after_projection = 1e-3;
-constexpr double smoothed = 0.7;  // triangles of this quality, an angle of 44 degrees, are left alone
+constexpr double smoothed = 0.6;  // triangles of this quality, an angle of 37 degrees, are left alone
 constexpr double least_gain = 0.005;
 
 /// The change that moves v, its triangles the same.
@@ -82,6 +83,8 @@ bool try_smoothing(Session& session, Index v) {
     for (const Vec3& aim : {middle_of_neighbours(net, ends), mean_of_ideal_apexes(net, v)})
         for (const double step : {1.0, 0.5, 0.25}) {
             const Vec3 wanted = net.point(v) + step * (aim - net.point(v));
+            // The projection is the dearest part, and changes the shapes little.
+            if (worst_quality(net, move(net, v, wanted)) <= best_quality) continue;
             const auto target = nearest(session, surfaces, kind, wanted, net.size(v));
             if (!target) continue;
             Change change = move(net, v, *target);
@@ -111,9 +114,12 @@ std::size_t project_vertices(Session& session) {
 }
 
 std::size_t smooth_vertices(Session& session) {
+    const std::uint64_t since = std::exchange(session.smoothed, session.net.now());
     std::size_t done = 0;
     for (Index v = 0; v < session.net.n_vertices(); ++v)
-        if (!session.net.triangles_at(v).empty() && try_smoothing(session, v)) ++done;
+        if (session.net.touched(v) >= since && !session.net.triangles_at(v).empty() &&
+            try_smoothing(session, v))
+            ++done;
     session.report.smoothings += done;
     return done;
 }

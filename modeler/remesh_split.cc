@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <queue>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -145,9 +146,13 @@ std::size_t split_edges(Session& session) {
 }
 
 std::size_t snap_to_curves(Session& session) {
+    const Net& net = session.net;
+    const std::uint64_t since = std::exchange(session.snapped, net.now());
+    const auto is_touched = [&](Index v) { return net.touched(v) >= since; };
     std::size_t done = 0;
-    for (Index t = 0; t < session.net.n_triangles(); ++t)
-        if (session.net.is_alive(t) && quality(session.net.corners(t)) < session.good && try_snap(session, t))
+    for (Index t = 0; t < net.n_triangles(); ++t)
+        if (net.is_alive(t) && std::ranges::any_of(net.triangle(t).vertices, is_touched) &&
+            quality(net.corners(t)) < session.good && try_snap(session, t))
             ++done;
     session.report.snaps += done;
     return done;
