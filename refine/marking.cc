@@ -1,0 +1,66 @@
+#include "refine/marking.hh"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "quality/measures.hh"
+#include "volmesh/error.hh"
+
+namespace maille::refine {
+namespace {
+
+Point centroid(const TetMesh& mesh, CellHandle c) {
+    const auto p = mesh.cell_points(c);
+    return 0.25 * (p[0] + p[1] + p[2] + p[3]);
+}
+
+/// Midpoints of edges this short, next to the coordinates' own size, begin to lose their places to rounding.
+void require_room(double length, const Point& at, double size) {
+    constexpr double least = 1e-9;
+    if (length > least * at.cwiseAbs().maxCoeff()) return;
+    throw InputError(fmt::format("the size {} at ({}, {}, {}) is too small for double precision", size, at.x(), at.y(), at.z()));
+}
+
+bool is_too_long(const Bisector& bisector, CellHandle c, const SizeField& size, double ratio) {
+    const Point at = centroid(bisector.mesh(), c);
+    const double wanted = size(at);
+    const double length = std::sqrt(bisector.longest_squared(c));
+    if (length <= ratio * wanted) return false;
+    require_room(length, at, wanted);
+    return true;
+}
+
+double shape(const TetMesh& mesh, CellHandle c) {
+    const auto p = mesh.cell_points(c);
+    return quality::sigma(quality::tet_geometry(p[0], p[1], p[2], p[3]));
+}
+
+}  // namespace
+
+std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<const CellHandle> cells,
+                                        const SizeField& size, double ratio) {
+    std::vector<std::uint8_t> marked(cells.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            marked[i] = is_too_long(bisector, cells[i], size, ratio) ? 1 : 0;
+    });
+    std::vector<CellHandle> chosen;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (marked[i] != 0) chosen.push_back(cells[i]);
+    return chosen;
+}
+
+void sort_cells(std::vector<CellHandle>& cells, const Bisector& bisector, Order order) {
+    if (order == Order::none) return;
+    std::vector<std::pair<double, CellHandle>> keyed;
+    keyed.reserve(cells.size());
+    for (const CellHandle c : cells)
+        keyed.emplace_back(order == Order::longest ? -bisector.longest_squared(c) : shape(bisector.mesh(), c), c);
+    std::ranges::sort(keyed);
+    for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = keyed[i].second;
+}
+
+}  // namespace maille::refine

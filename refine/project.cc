@@ -1,0 +1,135 @@
+#include "refine/project.hh"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "refine/relocate.hh"
+
+namespace maille::refine {
+
+BoundaryProjection::BoundaryProjection(TetMesh& mesh, const volmesh::Projector& projector, double min_shape)
+    : mesh_(mesh),
+      projector_(projector),
+      supports_(mesh, projector),
+      min_shape_(min_shape),
+      tolerance_(1e-12 * projector.model_size) {}
+
+void BoundaryProjection::take_up(std::uint32_t first, std::span<const CellHandle> cells) {
+    for (auto& [vertex, support] : supports_.of_vertices_from(first, cells))
+        waiting_.push_back({vertex, std::move(support), Point::Zero()});
+}
+
+std::vector<CellHandle> BoundaryProjection::run() {
+    find_targets();
+    constexpr int max_sweeps = 3;  // a vertex may wait for a neighbour that is moved after it
+    for (int i = 0; i < max_sweeps && sweep(min_shape_); ++i) {
+    }
+    return take_changed();
+}
+
+std::vector<CellHandle> BoundaryProjection::insist() {
+    constexpr int max_sweeps = 20;
+    for (const double part : {1.0, 0.1, 0.01}) {
+        for (int i = 0; i < max_sweeps && sweep(part * min_shape_); ++i) {
+        }
+    }
+    return take_changed();
+}
+
+/// The point nearest to each waiting vertex on all its surfaces; those that are there already wait no more.
+void BoundaryProjection::find_targets() {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, waiting_.size(), 64), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            Waiting& waiting = waiting_[i];
+            const auto target = projector_.project({waiting.support.data(), waiting.support.size()}, mesh_.point(waiting.vertex));
+            waiting.has_target = target && target->allFinite();
+            if (waiting.has_target) waiting.target = *target;
+        }
+    });
+    std::erase_if(waiting_, [&](const Waiting& waiting) {
+        return waiting.has_target && (mesh_.point(waiting.vertex) - waiting.target).norm() <= tolerance_;
+    });
+}
+
+/// Lets each waiting vertex go as far as it can; returns whether any moved and some still wait.
+bool BoundaryProjection::sweep(double least_shape) {
+    bool has_moved = false;
+    std::erase_if(waiting_, [&](Waiting& waiting) {
+        if (!waiting.has_target) return false;
+        const Point before = mesh_.point(waiting.vertex);
+        const bool has_arrived = approach(waiting, least_shape);
+        if (!has_arrived && make_room(waiting.vertex)) has_moved = true;
+        has_moved |= mesh_.point(waiting.vertex) != before;
+        return has_arrived;
+    });
+    return has_moved && !waiting_.empty();
+}
+
+/// Moves the vertex to its target or, while cells would break, half as far again and again; returns whether it is
+/// there.
+bool BoundaryProjection::approach(Waiting& waiting, double least_shape) {
+    const CellList cells = mesh_.vc_range(waiting.vertex);
+    const Point from = mesh_.point(waiting.vertex);
+    const double allowed = std::min(least_shape, worst_shape(mesh_, cells, waiting.vertex, from));
+    constexpr double least_step = 1.0 / 64;
+    for (double part = 1; part >= least_step; part /= 2) {
+        const Point at = part == 1 ? waiting.target : Point(from + part * (waiting.target - from));
+        const double worst = worst_shape(mesh_, cells, waiting.vertex, at);
+        if (worst <= 0 || worst < allowed) continue;
+        move(waiting.vertex, at);
+        if (!waiting.has_moved) ++n_moved_;
+        waiting.has_moved = true;
+        return part == 1;
+    }
+    return false;
+}
+
+/// Moves the free vertices round v to where the worst of their cells is better; returns whether any moved.
+bool BoundaryProjection::make_room(VertexHandle v) {
+    bool has_moved = false;
+    for (const VertexHandle u : mesh_.vv_range(v)) {
+        const CellList cells = mesh_.vc_range(u);
+        if (!is_free(mesh_, u, cells) || !relax(mesh_, u, cells)) continue;
+        has_moved = true;
+        changed_.insert(changed_.end(), cells.begin(), cells.end());
+    }
+    return has_moved;
+}
+
+void BoundaryProjection::move(VertexHandle v, const Point& to) {
+    mesh_.set_point(v, to);
+    const CellList cells = mesh_.vc_range(v);
+    changed_.insert(changed_.end(), cells.begin(), cells.end());
+}
+
+std::vector<CellHandle> BoundaryProjection::take_changed() {
+    std::ranges::sort(changed_);
+    const auto [repeats, end] = std::ranges::unique(changed_);
+    changed_.erase(repeats, end);
+    return std::exchange(changed_, {});
+}
+
+std::vector<VertexHandle> BoundaryProjection::short_of_target() const {
+    std::vector<VertexHandle> vertices;
+    for (const Waiting& waiting : waiting_) vertices.push_back(waiting.vertex);
+    std::ranges::sort(vertices);
+    return vertices;
+}
+
+std::vector<CellHandle> BoundaryProjection::obstacles() const {
+    std::vector<CellHandle> cells;
+    for (const Waiting& waiting : waiting_) {
+        if (!waiting.has_target) continue;
+        for (const CellHandle c : mesh_.vc_range(waiting.vertex)) {
+            const CellList one{c};
+            if (worst_shape(mesh_, one, waiting.vertex, waiting.target) < min_shape_) cells.push_back(c);
+        }
+    }
+    std::ranges::sort(cells);
+    const auto [repeats, end] = std::ranges::unique(cells);
+    cells.erase(repeats, end);
+    return cells;
+}
+
+}  // namespace maille::refine

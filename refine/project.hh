@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "refine/support.hh"
+#include "volmesh/projector.hh"
+#include "volmesh/tet_mesh.hh"
+
+namespace maille::refine {
+
+/// Moves vertices onto the true surfaces that they lie on, without ever inverting a cell or, to get there, making one
+/// worse than the shape allowed.
+///
+/// A vertex that cannot go all the way goes as far as it can, the vertices inside the mesh round it make room, and it
+/// tries again each time.
+class BoundaryProjection {
+  public:
+    /// `min_shape`: the least shape (gamma) that a move may leave in a cell that was better before.
+    BoundaryProjection(volmesh::TetMesh& mesh, const volmesh::Projector& projector, double min_shape);
+
+    /// Takes up the vertices from `first` on; the cells given are all that have one of them, or more.
+    void take_up(std::uint32_t first, std::span<const volmesh::CellHandle> cells);
+
+    /// Moves the vertices that are not on their surfaces yet. Returns the cells whose points have moved, ascending.
+    std::vector<volmesh::CellHandle> run();
+    /// The same with all patience: shapes down to a hundredth of the one allowed are accepted at last.
+    std::vector<volmesh::CellHandle> insist();
+
+    bool is_done() const { return waiting_.empty(); }
+    /// Number of vertices that have been moved towards their surfaces.
+    std::size_t n_moved() const { return n_moved_; }
+    /// Vertices that are not on all their surfaces, ascending.
+    std::vector<volmesh::VertexHandle> short_of_target() const;
+    /// The cells that keep those vertices from their targets, ascending: to refine them gives more room.
+    std::vector<volmesh::CellHandle> obstacles() const;
+
+  private:
+    struct Waiting {
+        volmesh::VertexHandle vertex;
+        Support support;
+        volmesh::Point target;
+        bool has_target = false;
+        bool has_moved = false;
+    };
+
+    void find_targets();
+    bool sweep(double least_shape);
+    bool approach(Waiting& waiting, double least_shape);
+    bool make_room(volmesh::VertexHandle v);
+    void move(volmesh::VertexHandle v, const volmesh::Point& to);
+    std::vector<volmesh::CellHandle> take_changed();
+
+    volmesh::TetMesh& mesh_;
+    const volmesh::Projector& projector_;
+    Supports supports_;
+    double min_shape_;
+    double tolerance_;  ///< how near is on the surface
+    std::vector<Waiting> waiting_;
+    std::vector<volmesh::CellHandle> changed_;
+    std::size_t n_moved_ = 0;
+};
+
+}  // namespace maille::refine

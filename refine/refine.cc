@@ -1,0 +1,173 @@
+#include "refine/refine.hh"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "refine/bisector.hh"
+#include "refine/project.hh"
+#include "refine/relocate.hh"
+#include "volmesh/error.hh"
+
+namespace maille::refine {
+namespace {
+
+/// Adds the time that it lives to a sum.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& sum) : sum_(sum) {}
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+    ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+  private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+using Cells = std::vector<CellHandle>;
+
+Cells united(const Cells& a, const Cells& b) {
+    Cells all;
+    all.reserve(a.size() + b.size());
+    std::ranges::set_union(a, b, std::back_inserter(all));
+    return all;
+}
+
+/// One refinement of one mesh, pass by pass. `open_` are the cells that may need refinement: all at first, then those
+/// that have changed since they were last looked at.
+class Refinement {
+  public:
+    Refinement(TetMesh& mesh, const SizeField& size, const RefineOptions& options,
+               const volmesh::Projector* projector)
+        : mesh_(mesh), size_(size), options_(options), bisector_(mesh) {
+        for (const auto c : mesh.cells()) open_.push_back(c);
+        if (projector != nullptr && options.project) {
+            projection_.emplace(mesh, *projector, options.min_shape);
+            project(0);
+        }
+    }
+
+    RefineResult run() {
+        do {
+            refine_to_size();
+        } while (bring_home() && result_.ended);
+        result_.cells = mesh_.n_cells();
+        result_.vertices = mesh_.n_vertices();
+        result_.lineage = bisector_.take_lineage();
+        if (projection_) result_.projection = {projection_->n_moved(), projection_->short_of_target()};
+        return std::move(result_);
+    }
+
+  private:
+    void refine_to_size() {
+        for (Cells marked = mark(); !marked.empty(); marked = mark()) {
+            if (result_.iterations >= options_.max_iterations || mesh_.n_cells() > options_.max_cells) {
+                result_.ended = false;
+                return;
+            }
+            pass(marked);
+            ++result_.iterations;
+            if (options_.progress) options_.progress({result_.iterations, marked.size(), mesh_.n_cells()});
+        }
+    }
+
+    Cells mark() {
+        const Stopwatch watch(result_.seconds.mark);
+        Cells marked = cells_to_refine(bisector_, open_, size_, options_.ratio);
+        sort_cells(marked, bisector_, options_.order);
+        open_.clear();
+        return marked;
+    }
+
+    void pass(const Cells& marked) {
+        const std::uint32_t first_new = mesh_.n_vertices();
+        {
+            const Stopwatch watch(result_.seconds.split);
+            bisector_.begin_pass();
+            for (const CellHandle c : marked) {
+                if (options_.method == Method::rivara)
+                    bisector_.bisect_conforming(c);
+                else
+                    bisector_.bisect(c);
+            }
+            open_ = bisector_.born();
+        }
+        project(first_new);
+        if (options_.smooth) smooth(first_new);
+    }
+
+    /// Brings vertices to their surfaces: the waiting ones and those from `first_new` on, which are in the open cells.
+    void project(std::uint32_t first_new) {
+        if (!projection_) return;
+        const Stopwatch watch(result_.seconds.project);
+        projection_->take_up(first_new, open_);
+        reopen(projection_->run());
+    }
+
+    void smooth(std::uint32_t first_new) {
+        const Stopwatch watch(result_.seconds.smooth);
+        Cells moved;
+        for (std::uint32_t i = first_new; i < mesh_.n_vertices(); ++i) {
+            const VertexHandle v(i);
+            const CellList cells = mesh_.vc_range(v);
+            if (is_free(mesh_, v, cells) && relax(mesh_, v, cells)) moved.insert(moved.end(), cells.begin(), cells.end());
+        }
+        std::ranges::sort(moved);
+        const auto [repeats, end] = std::ranges::unique(moved);
+        moved.erase(repeats, end);
+        reopen(moved);
+    }
+
+    void reopen(const Cells& moved) {
+        bisector_.refresh(moved);
+        open_ = united(open_, moved);
+    }
+
+    /// Where vertices still fall short of their surfaces, tries harder, and as a last resort refines the cells in
+    /// their way, so that there are nodes that can make room. Returns whether the size has to be seen to again.
+    bool bring_home() {
+        if (!projection_ || projection_->is_done()) return false;
+        {
+            const Stopwatch watch(result_.seconds.project);
+            reopen(projection_->insist());
+        }
+        constexpr int max_rescues = 3;
+        if (!projection_->is_done() && n_rescues_++ < max_rescues) pass(projection_->obstacles());
+        return !open_.empty();
+    }
+
+    TetMesh& mesh_;
+    const SizeField& size_;
+    const RefineOptions& options_;
+    Bisector bisector_;
+    std::optional<BoundaryProjection> projection_;
+    Cells open_;
+    int n_rescues_ = 0;
+    RefineResult result_;
+};
+
+void require_valid(const TetMesh& mesh, const RefineOptions& options) {
+    if (!(options.ratio > 0) || !std::isfinite(options.ratio))
+        throw InputError(fmt::format("the refinement ratio must be positive, not {}", options.ratio));
+    if (options.max_iterations < 0) throw InputError("the number of iterations cannot be negative");
+    if (options.threads < 0) throw InputError("the number of threads cannot be negative");
+    if (mesh.has_deleted()) throw InputError("the mesh has deleted entities: collect them (garbage_collection) first");
+}
+
+}  // namespace
+
+RefineResult refine(TetMesh& mesh, const SizeField& size, const RefineOptions& options,
+                    const volmesh::Projector* projector) {
+    require_valid(mesh, options);
+    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
+    RefineResult result;
+    arena.execute([&] { result = Refinement(mesh, size, options, projector).run(); });
+    return result;
+}
+
+}  // namespace maille::refine
