@@ -14,25 +14,25 @@ double squared_length(const Point& a, const Point& b) {
     return x * x + y * y + z * z;
 }
 
-/// What decides between edges of the same length.
-auto tie_breaker(const TetMesh& mesh, CellHandle c, int edge) {
-    const VertexHandle a = mesh.cell_vertex(c, tet::edge_vertices[edge][0]);
-    const VertexHandle b = mesh.cell_vertex(c, tet::edge_vertices[edge][1]);
-    const Point& p = mesh.point(a);
-    const Point& q = mesh.point(b);
-    return std::tuple(p.x() + q.x(), p.y() + q.y(), p.z() + q.z(), std::min(a, b), std::max(a, b));
-}
-
 }  // namespace
 
-int longest_edge(const TetMesh& mesh, CellHandle c) {
-    const std::array<Point, 4> p = mesh.cell_points(c);
+/// What decides between edges of the same length.
+auto Bisector::tie_breaker(CellHandle c, int edge) const {
+    const VertexHandle a = mesh_.cell_vertex(c, tet::edge_vertices[edge][0]);
+    const VertexHandle b = mesh_.cell_vertex(c, tet::edge_vertices[edge][1]);
+    const Point& p = mesh_.point(a);
+    const Point& q = mesh_.point(b);
+    const int age = -std::max(generation_[a.idx()], generation_[b.idx()]);
+    return std::tuple(age, p.x() + q.x(), p.y() + q.y(), p.z() + q.z(), std::min(a, b), std::max(a, b));
+}
+
+int Bisector::find_longest(CellHandle c) const {
+    const std::array<Point, 4> p = mesh_.cell_points(c);
     int longest = 0;
     double length = -1;
     for (int edge = 0; edge < 6; ++edge) {
         const double other = squared_length(p[tet::edge_vertices[edge][0]], p[tet::edge_vertices[edge][1]]);
-        if (other > length ||
-            (other == length && tie_breaker(mesh, c, edge) > tie_breaker(mesh, c, longest))) {
+        if (other > length || (other == length && tie_breaker(c, edge) > tie_breaker(c, longest))) {
             longest = edge;
             length = other;
         }
@@ -40,12 +40,12 @@ int longest_edge(const TetMesh& mesh, CellHandle c) {
     return longest;
 }
 
-Bisector::Bisector(TetMesh& mesh) : mesh_(mesh), state_(mesh.n_cells()) {
+Bisector::Bisector(TetMesh& mesh) : mesh_(mesh), state_(mesh.n_cells()), generation_(mesh.n_vertices()) {
     lineage_.n_vertices_before = mesh.n_vertices();
     lineage_.cell_ancestors.resize(mesh.n_cells());
     for (std::uint32_t i = 0; i < mesh.n_cells(); ++i) {
         lineage_.cell_ancestors[i] = i;
-        state_[i] = static_cast<std::uint8_t>(longest_edge(mesh, CellHandle(i)));
+        state_[i] = static_cast<std::uint8_t>(find_longest(CellHandle(i)));
     }
     first_new_ = mesh.n_cells();
 }
@@ -57,7 +57,7 @@ double Bisector::longest_squared(CellHandle c) const {
 
 void Bisector::refresh(std::span<const CellHandle> cells) {
     for (const CellHandle c : cells)
-        state_[c.idx()] = static_cast<std::uint8_t>((state_[c.idx()] & born_bit) | longest_edge(mesh_, c));
+        state_[c.idx()] = static_cast<std::uint8_t>((state_[c.idx()] & born_bit) | find_longest(c));
 }
 
 void Bisector::begin_pass() {
@@ -108,15 +108,17 @@ CellHandle Bisector::in_the_way(const CellList& ring, VertexHandle a, VertexHand
 
 void Bisector::split(CellHandle c, const CellList& ring) {
     const auto [i, j] = tet::edge_vertices[longest(c)];
-    lineage_.vertex_parents.push_back({mesh_.cell_vertex(c, i).idx(), mesh_.cell_vertex(c, j).idx()});
+    const std::uint32_t a = mesh_.cell_vertex(c, i).idx(), b = mesh_.cell_vertex(c, j).idx();
+    lineage_.vertex_parents.push_back({a, b});
+    generation_.push_back(static_cast<std::uint16_t>(std::max(generation_[a], generation_[b]) + 1));
     const std::uint32_t first_child = mesh_.n_cells();
     mesh_.split_edge(c, longest(c), 0.5, ring);
     for (const CellHandle kept : ring) {
         if (kept.idx() < first_new_ && !is_born(kept)) reborn_.push_back(kept);
-        state_[kept.idx()] = static_cast<std::uint8_t>(born_bit | longest_edge(mesh_, kept));
+        state_[kept.idx()] = static_cast<std::uint8_t>(born_bit | find_longest(kept));
     }
     for (std::uint32_t k = 0; k < ring.size(); ++k) {
-        state_.push_back(static_cast<std::uint8_t>(born_bit | longest_edge(mesh_, CellHandle(first_child + k))));
+        state_.push_back(static_cast<std::uint8_t>(born_bit | find_longest(CellHandle(first_child + k))));
         lineage_.cell_ancestors.push_back(lineage_.cell_ancestors[ring[k].idx()]);
     }
 }

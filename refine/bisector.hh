@@ -14,13 +14,13 @@ using volmesh::CellList;
 using volmesh::TetMesh;
 using volmesh::VertexHandle;
 
-/// Local number of the longest edge of a cell, by a total order on edges: the squared length, then the place of the
-/// midpoint (x, y, z), then the vertex indices. The order depends on the edge alone, not on the cell that asks, which
-/// makes the closure of a refinement conforming and unique.
-int longest_edge(const TetMesh& mesh, CellHandle c);
-
 /// Bisects cells of a mesh at their longest edges and keeps, for each cell, which edge that is, the cell of the first
 /// mesh that it lies in, and whether it was born in the present pass.
+///
+/// "Longest" is by a total order on edges: the squared length; of equals, the older edge (fewer splits led to its
+/// younger end), then the place of the midpoint, then the vertex indices. The order depends on the edge alone, not on
+/// the cell that asks or on other elements, so the closure of a refinement is conforming and unique. Numbering decides
+/// only where two edges share their midpoint.
 class Bisector {
   public:
     /// The mesh must not be edited by others from then on, except that points may be moved (see `refresh`).
@@ -56,11 +56,14 @@ class Bisector {
   private:
     static constexpr std::uint8_t edge_mask = 7, born_bit = 8;
 
+    int find_longest(CellHandle c) const;
+    auto tie_breaker(CellHandle c, int edge) const;
     void split(CellHandle c, const CellList& ring);
     CellHandle in_the_way(const CellList& ring, VertexHandle a, VertexHandle b) const;
 
     TetMesh& mesh_;
-    std::vector<std::uint8_t> state_;
+    std::vector<std::uint8_t> state_;        ///< by cell: its longest edge and whether it was born in this pass
+    std::vector<std::uint16_t> generation_;  ///< by vertex: 0 in the first mesh, else one more than its parents'
     std::vector<CellHandle> reborn_;  ///< cells of before the pass whose index a child has taken
     std::uint32_t first_new_ = 0;     ///< number of cells when the pass began
     std::vector<CellHandle> path_;    ///< kept to spare allocations

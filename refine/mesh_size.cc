@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <boost/geometry/core/cs.hpp>
@@ -111,7 +112,9 @@ class CellValues {
                 cell = it->second;
             }
         }
-        return best.weights.dot(values_[cell]);
+        // Written so that equal values give just that value.
+        const Weights& values = values_[cell];
+        return values[0] + best.weights.dot(values - Weights::Constant(values[0]));
     }
 
   private:

@@ -1,5 +1,6 @@
 #include "refine/paper.hh"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>

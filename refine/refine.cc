@@ -164,7 +164,8 @@ void require_valid(const TetMesh& mesh, const RefineOptions& options) {
 RefineResult refine(TetMesh& mesh, const SizeField& size, const RefineOptions& options,
                     const volmesh::Projector* projector) {
     require_valid(mesh, options);
-    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
+    const int available = tbb::this_task_arena::max_concurrency();
+    tbb::task_arena arena(options.threads == 0 ? available : std::min(options.threads, available));
     RefineResult result;
     arena.execute([&] { result = Refinement(mesh, size, options, projector).run(); });
     return result;

@@ -1,5 +1,7 @@
 #include "refine/relocate.hh"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 

@@ -223,7 +223,7 @@ TEST_CASE("caps are kept and told") {
 TEST_CASE("plain bisection that doesn't end is capped") {
     int n_capped = 0;
     for (unsigned seed = 1; seed <= 12; ++seed) {
-        TetMesh mesh = test::random_cube(2, seed, 0.45).mesh();
+        TetMesh mesh = test::random_cube(2, seed, 0.3).mesh();
         const RefineResult result = refine(mesh, SizeField(0.12), {.method = Method::bisection, .max_iterations = 40});
         n_capped += !result.ended;
         CHECK(result.ended == is_fine(mesh, SizeField(0.12), 1.5));
