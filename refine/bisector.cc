@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
+
+#include "volmesh/orientation.hh"
 
 namespace maille::refine {
 namespace {
@@ -14,6 +17,19 @@ double squared_length(const Point& a, const Point& b) {
     return x * x + y * y + z * z;
 }
 
+/// Whether both children of a cell are positively oriented when its edge a-b is split at `middle`. They are
+/// but for rounding, if the cell is.
+bool keeps_orientation(const TetMesh& mesh, CellHandle c, VertexHandle a, VertexHandle b,
+                       const Point& middle) {
+    const std::array<Point, 4> p = mesh.cell_points(c);
+    for (const VertexHandle end : {a, b}) {
+        std::array<Point, 4> child = p;
+        child[mesh.local_vertex(c, end)] = middle;
+        if (volmesh::orientation(child[0], child[1], child[2], child[3]) <= 0) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 /// What decides between edges of the same length.
@@ -22,8 +38,9 @@ auto Bisector::tie_breaker(CellHandle c, int edge) const {
     const VertexHandle b = mesh_.cell_vertex(c, tet::edge_vertices[edge][1]);
     const Point& p = mesh_.point(a);
     const Point& q = mesh_.point(b);
-    const int age = -std::max(generation_[a.idx()], generation_[b.idx()]);
-    return std::tuple(age, p.x() + q.x(), p.y() + q.y(), p.z() + q.z(), std::min(a, b), std::max(a, b));
+    const auto [older, younger] = std::minmax({generation_[a.idx()], generation_[b.idx()]});
+    return std::tuple(-younger, -older, p.x() + q.x(), p.y() + q.y(), p.z() + q.z(), std::min(a, b),
+                      std::max(a, b));
 }
 
 int Bisector::find_longest(CellHandle c) const {
@@ -45,9 +62,8 @@ Bisector::Bisector(TetMesh& mesh) : mesh_(mesh), state_(mesh.n_cells()), generat
     lineage_.cell_ancestors.resize(mesh.n_cells());
     for (std::uint32_t i = 0; i < mesh.n_cells(); ++i) {
         lineage_.cell_ancestors[i] = i;
-        state_[i] = static_cast<std::uint8_t>(find_longest(CellHandle(i)));
+        update(CellHandle(i), changed_bit);
     }
-    first_new_ = mesh.n_cells();
 }
 
 double Bisector::longest_squared(CellHandle c) const {
@@ -55,32 +71,34 @@ double Bisector::longest_squared(CellHandle c) const {
     return squared_length(mesh_.point(mesh_.cell_vertex(c, i)), mesh_.point(mesh_.cell_vertex(c, j)));
 }
 
+/// Looks at a cell anew, and adds it to those that have changed.
+void Bisector::update(CellHandle c, std::uint8_t more_bits) {
+    std::uint8_t& state = state_[c.idx()];
+    if ((state & changed_bit) == 0) changed_.push_back(c);
+    state = static_cast<std::uint8_t>((state & ~edge_mask) | changed_bit | more_bits | find_longest(c));
+}
+
 void Bisector::refresh(std::span<const CellHandle> cells) {
-    for (const CellHandle c : cells)
-        state_[c.idx()] = static_cast<std::uint8_t>((state_[c.idx()] & born_bit) | find_longest(c));
+    for (const CellHandle c : cells) update(c, changed_bit);
 }
 
-void Bisector::begin_pass() {
-    for (const CellHandle c : reborn_) state_[c.idx()] &= edge_mask;
-    for (std::uint32_t i = first_new_; i < mesh_.n_cells(); ++i) state_[i] &= edge_mask;
-    reborn_.clear();
-    first_new_ = mesh_.n_cells();
+std::vector<CellHandle> Bisector::take_changed() {
+    for (const CellHandle c : changed_) state_[c.idx()] &= edge_mask;
+    return std::exchange(changed_, {});
 }
 
-std::vector<CellHandle> Bisector::born() const {
-    std::vector<CellHandle> cells = reborn_;
-    std::ranges::sort(cells);
-    for (std::uint32_t i = first_new_; i < mesh_.n_cells(); ++i) cells.emplace_back(i);
-    return cells;
+bool Bisector::bisect(CellHandle c) {
+    return is_born(c) || split(c, longest(c));
 }
 
-void Bisector::bisect(CellHandle c) {
-    if (!is_born(c)) split(c, mesh_.cells_around(c, longest(c)));
+bool Bisector::split(CellHandle c, int local_edge) {
+    return split(c, local_edge, mesh_.cells_around(c, local_edge));
 }
 
-void Bisector::bisect_conforming(CellHandle c) {
-    if (is_born(c)) return;
-    // Each cell of the path has a strictly longer edge than the one before it, so none is split before its turn.
+bool Bisector::bisect_conforming(CellHandle c) {
+    if (is_born(c)) return true;
+    // Each cell of the path has a strictly longer edge than the one before it, so none is split before its
+    // turn.
     path_.assign(1, c);
     while (!path_.empty()) {
         const CellHandle last = path_.back();
@@ -90,10 +108,11 @@ void Bisector::bisect_conforming(CellHandle c) {
         if (obstacle.is_valid()) {
             path_.push_back(obstacle);
         } else {
-            split(last, ring);
+            if (!split(last, longest(last), ring)) return false;
             path_.pop_back();
         }
     }
+    return true;
 }
 
 /// The first cell round the edge a-b that has a longer edge; invalid where there is none.
@@ -106,21 +125,25 @@ CellHandle Bisector::in_the_way(const CellList& ring, VertexHandle a, VertexHand
     return {};
 }
 
-void Bisector::split(CellHandle c, const CellList& ring) {
-    const auto [i, j] = tet::edge_vertices[longest(c)];
-    const std::uint32_t a = mesh_.cell_vertex(c, i).idx(), b = mesh_.cell_vertex(c, j).idx();
-    lineage_.vertex_parents.push_back({a, b});
-    generation_.push_back(static_cast<std::uint16_t>(std::max(generation_[a], generation_[b]) + 1));
+bool Bisector::split(CellHandle c, int local_edge, const CellList& ring) {
+    const auto [i, j] = tet::edge_vertices[local_edge];
+    const VertexHandle a = mesh_.cell_vertex(c, i), b = mesh_.cell_vertex(c, j);
+    const Point middle = 0.5 * mesh_.point(a) + 0.5 * mesh_.point(b);
+    for (const CellHandle parent : ring)
+        if (!keeps_orientation(mesh_, parent, a, b, middle)) return false;
+
+    lineage_.vertex_parents.push_back({a.idx(), b.idx()});
+    generation_.push_back(
+        static_cast<std::uint16_t>(std::max(generation_[a.idx()], generation_[b.idx()]) + 1));
     const std::uint32_t first_child = mesh_.n_cells();
-    mesh_.split_edge(c, longest(c), 0.5, ring);
-    for (const CellHandle kept : ring) {
-        if (kept.idx() < first_new_ && !is_born(kept)) reborn_.push_back(kept);
-        state_[kept.idx()] = static_cast<std::uint8_t>(born_bit | find_longest(kept));
-    }
+    mesh_.split_edge(c, local_edge, 0.5, ring);
+    state_.resize(mesh_.n_cells());
     for (std::uint32_t k = 0; k < ring.size(); ++k) {
-        state_.push_back(static_cast<std::uint8_t>(born_bit | find_longest(CellHandle(first_child + k))));
         lineage_.cell_ancestors.push_back(lineage_.cell_ancestors[ring[k].idx()]);
+        update(ring[k], born_bit);
+        update(CellHandle(first_child + k), born_bit);
     }
+    return true;
 }
 
 }  // namespace maille::refine

@@ -1,10 +1,10 @@
 #include "refine/marking.hh"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "quality/measures.hh"
 #include "volmesh/error.hh"
@@ -21,7 +21,8 @@ Point centroid(const TetMesh& mesh, CellHandle c) {
 void require_room(double length, const Point& at, double size) {
     constexpr double least = 1e-9;
     if (length > least * at.cwiseAbs().maxCoeff()) return;
-    throw InputError(fmt::format("the size {} at ({}, {}, {}) is too small for double precision", size, at.x(), at.y(), at.z()));
+    throw InputError(fmt::format("the size {} at ({}, {}, {}) is too small for double precision", size,
+                                 at.x(), at.y(), at.z()));
 }
 
 bool is_too_long(const Bisector& bisector, CellHandle c, const SizeField& size, double ratio) {
@@ -33,7 +34,7 @@ bool is_too_long(const Bisector& bisector, CellHandle c, const SizeField& size, 
     return true;
 }
 
-double shape(const TetMesh& mesh, CellHandle c) {
+double sigma(const TetMesh& mesh, CellHandle c) {
     const auto p = mesh.cell_points(c);
     return quality::sigma(quality::tet_geometry(p[0], p[1], p[2], p[3]));
 }
@@ -58,7 +59,8 @@ void sort_cells(std::vector<CellHandle>& cells, const Bisector& bisector, Order 
     std::vector<std::pair<double, CellHandle>> keyed;
     keyed.reserve(cells.size());
     for (const CellHandle c : cells)
-        keyed.emplace_back(order == Order::longest ? -bisector.longest_squared(c) : shape(bisector.mesh(), c), c);
+        keyed.emplace_back(order == Order::longest ? -bisector.longest_squared(c) : sigma(bisector.mesh(), c),
+                           c);
     std::ranges::sort(keyed);
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = keyed[i].second;
 }

@@ -11,12 +11,14 @@ namespace maille::refine {
 /// In which order a pass takes the elements that are to be refined.
 enum class Order : std::uint8_t {
     longest,  ///< the longest edge first
-    shape,    ///< the worst shape first, by inscribed radius over longest edge: for start meshes of poor quality
-    none      ///< as they are numbered
+    shape,    ///< the worst shape first, by inscribed radius over longest edge: for start meshes of poor
+              ///< quality
+    none      ///< as they were made
 };
 
-/// Those of the cells whose longest edge is longer than `ratio` times the size at their centroid, in the order given.
-/// Throws InputError, naming the place, where the size is so small that doubles can't hold such elements' points.
+/// Those of the cells whose longest edge is longer than `ratio` times the size at their centroid, in the
+/// order given. Throws InputError, naming the place, where the size is so small that doubles can't hold such
+/// elements' points.
 std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<const CellHandle> cells,
                                         const SizeField& size, double ratio);
 

@@ -1,14 +1,14 @@
-#include <Eigen/Geometry>
-#include <fmt/format.h>
+#include <cmath>
+#include <iterator>
+#include <limits>
 
+#include <Eigen/Geometry>
 #include <boost/geometry/core/cs.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/geometry/strategies/strategies.hpp>
-#include <cmath>
-#include <iterator>
-#include <limits>
+#include <fmt/format.h>
 
 #include "refine/size_field.hh"
 #include "volmesh/error.hh"
@@ -26,7 +26,9 @@ using TreeBox = boost::geometry::model::box<TreePoint>;
 using TreeEntry = std::pair<TreeBox, std::uint32_t>;
 using Tree = bgi::rtree<TreeEntry, bgi::rstar<8>>;
 
-TreePoint tree_point(const Point& p) { return {p.x(), p.y(), p.z()}; }
+TreePoint tree_point(const Point& p) {
+    return {p.x(), p.y(), p.z()};
+}
 
 /// Barycentric coordinates of p; where the cell is flat, those of a point that is outside.
 Weights barycentric(const Corners& t, const Point& p) {
@@ -102,8 +104,8 @@ class CellValues {
         Nearest best;
         std::uint32_t cell = 0;
         const TreePoint place = tree_point(p);
-        for (auto it = tree_.qbegin(bgi::nearest(place, static_cast<unsigned>(corners_.size()))); it != tree_.qend();
-             ++it) {
+        for (auto it = tree_.qbegin(bgi::nearest(place, static_cast<unsigned>(corners_.size())));
+             it != tree_.qend(); ++it) {
             if (boost::geometry::comparable_distance(place, it->first) > best.squared_distance) break;
             const Nearest found = nearest_in_cell(corners_[it->second], p);
             if (found.squared_distance < best.squared_distance ||
@@ -123,10 +125,12 @@ class CellValues {
     Tree tree_;
 };
 
-void require_size(double value, const std::string& property, const char* kind, std::uint32_t index, const Point& p) {
+void require_size(double value, const std::string& property, const char* kind, std::uint32_t index,
+                  const Point& p) {
     if (value > 0 && std::isfinite(value)) return;
-    throw InputError(fmt::format("the size \"{}\" is {} at {} {}, ({}, {}, {}); it must be positive and finite",
-                                 property, value, kind, index, p.x(), p.y(), p.z()));
+    throw InputError(
+        fmt::format("the size \"{}\" is {} at {} {}, ({}, {}, {}); it must be positive and finite", property,
+                    value, kind, index, p.x(), p.y(), p.z()));
 }
 
 /// The values at the corners of each cell.
@@ -151,7 +155,8 @@ std::vector<Weights> corner_values(const TetMesh& mesh, const std::string& prope
             values.push_back(Weights::Constant(value));
         }
     } else {
-        throw InputError(fmt::format("the mesh has no vertex or cell field of real numbers named \"{}\"", property));
+        throw InputError(
+            fmt::format("the mesh has no vertex or cell field of real numbers named \"{}\"", property));
     }
     return values;
 }
@@ -162,7 +167,8 @@ SizeField mesh_size(const TetMesh& mesh, const std::string& property) {
     std::vector<Weights> values = corner_values(mesh, property);
     if (values.empty()) throw InputError("a size field needs a mesh with at least one cell");
     const auto cells = std::make_shared<const CellValues>(mesh, std::move(values));
-    return SizeField([cells](const Point& p) { return (*cells)(p); }, fmt::format("the size field \"{}\"", property));
+    return SizeField([cells](const Point& p) { return (*cells)(p); },
+                     fmt::format("the size field \"{}\"", property));
 }
 
 }  // namespace maille::refine

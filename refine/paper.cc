@@ -1,8 +1,5 @@
 #include "refine/paper.hh"
 
-#include <Eigen/Geometry>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,14 +7,17 @@
 #include <limits>
 #include <map>
 
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
 #include "quality/measures.hh"
 #include "volmesh/error.hh"
 
 namespace maille::refine {
 namespace {
 
-/// The tetrahedra of a brick, corners as bits x + 2y + 4z: two at corners, two along the diagonal, two slanted.
-/// This mix gives Table 1 to the printed digit.
+/// The tetrahedra of a brick, corners as bits x + 2y + 4z: two at corners, two along the diagonal, two
+/// slanted. This mix gives Table 1 to the printed digit.
 constexpr std::array<std::array<int, 4>, 6> brick_tets{
     {{2, 4, 6, 7}, {0, 2, 4, 5}, {0, 1, 3, 5}, {0, 2, 3, 5}, {2, 4, 5, 7}, {2, 3, 5, 7}}};
 
@@ -81,7 +81,8 @@ PaperStart measure_start(const volmesh::TetMesh& mesh) {
         alpha.add(quality::alpha(t));
         tau.add(quality::tau(t));
     }
-    return {mesh.n_cells(), mesh.n_vertices(), radius_ratio.spread(), sigma.spread(), alpha.spread(), tau.spread()};
+    return {mesh.n_cells(), mesh.n_vertices(), radius_ratio.spread(),
+            sigma.spread(), alpha.spread(),    tau.spread()};
 }
 
 void measure(const volmesh::TetMesh& mesh, const SizeField& size, PaperRun& run) {
@@ -119,7 +120,8 @@ PaperRun run_once(int example, Method method, Order order) {
     run.method = method;
     run.order = order;
     const std::clock_t start = std::clock();
-    const RefineResult result = refine(mesh, size, {.method = method, .order = order, .max_iterations = 50, .max_cells=1000000});
+    const RefineResult result =
+        refine(mesh, size, {.method = method, .order = order, .max_iterations = 50, .max_cells = 1000000});
     run.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     run.iterations = result.iterations;
     run.ended = result.ended;
@@ -129,7 +131,8 @@ PaperRun run_once(int example, Method method, Order order) {
 
 PaperStart printed_start(int example) {
     const double sigma = example == 1 ? 0.608834 : 0.604382;
-    return {0, 0,
+    return {0,
+            0,
             {0.508666, example == 1 ? 0.564057 : 0.568254, 0.597717},
             {0.508666, sigma, 0.732051},
             {0.601921, example == 1 ? 0.703934 : 0.704405, 0.803509},
@@ -140,22 +143,118 @@ std::vector<PaperRun> printed_runs(int example) {
     using enum Method;
     using enum Order;
     if (example == 1)
-        return {{bisection, none, 7, true, 3936, 933, {0.0499186, 0.572655, 1}, {0.188982, 0.535242, 1},
-                 {0.873464, 1.22086, 1.46158}, 8.86, 1.57, 3.88, 100, 140},
-                {bisection, longest, 7, true, 3515, 842, {0.313694, 0.601893, 1}, {0.288675, 0.564946, 1},
-                 {0.956832, 1.24317, 1.35316}, 0.28, 0, 0.08, 100, 131},
-                {rivara, none, 7, true, 3517, 841, {0.400783, 0.60431, 1}, {0.408248, 0.564194, 1},
-                 {1.10485, 1.24097, 1.35316}, 0, 0, 0, 100, 145},
-                {rivara, longest, 7, true, 3519, 841, {0.400783, 0.604619, 1}, {0.408248, 0.564023, 1},
-                 {1.10485, 1.24052, 1.35316}, 0, 0, 0, 100, 150}};
-    return {{bisection, none, 15, true, 11640, 2805, {0.0555519, 0.545894, 1}, {0.0762493, 0.514044, 1},
-             {0.50402, 1.20205, 1.49821}, 12.6, 0.9, 3.89, 99.63, 687},
-            {bisection, longest, 15, true, 9917, 2435, {0.293179, 0.584374, 1}, {0.25, 0.554054, 1},
-             {0.717876, 1.24002, 1.49821}, 1.62, 0, 0.18, 100, 600},
-            {rivara, none, 15, true, 10117, 2473, {0.359681, 0.5842, 1}, {0.353553, 0.556644, 1},
-             {0.800021, 1.23506, 1.49821}, 1.12, 0, 0, 100, 733},
-            {rivara, longest, 15, true, 10168, 2482, {0.339459, 0.583953, 1}, {0.288675, 0.557701, 1},
-             {0.615981, 1.23271, 1.49821}, 1.27, 0, 0, 99.99, 747}};
+        return {{bisection,
+                 none,
+                 7,
+                 true,
+                 3936,
+                 933,
+                 {0.0499186, 0.572655, 1},
+                 {0.188982, 0.535242, 1},
+                 {0.873464, 1.22086, 1.46158},
+                 8.86,
+                 1.57,
+                 3.88,
+                 100,
+                 140},
+                {bisection,
+                 longest,
+                 7,
+                 true,
+                 3515,
+                 842,
+                 {0.313694, 0.601893, 1},
+                 {0.288675, 0.564946, 1},
+                 {0.956832, 1.24317, 1.35316},
+                 0.28,
+                 0,
+                 0.08,
+                 100,
+                 131},
+                {rivara,
+                 none,
+                 7,
+                 true,
+                 3517,
+                 841,
+                 {0.400783, 0.60431, 1},
+                 {0.408248, 0.564194, 1},
+                 {1.10485, 1.24097, 1.35316},
+                 0,
+                 0,
+                 0,
+                 100,
+                 145},
+                {rivara,
+                 longest,
+                 7,
+                 true,
+                 3519,
+                 841,
+                 {0.400783, 0.604619, 1},
+                 {0.408248, 0.564023, 1},
+                 {1.10485, 1.24052, 1.35316},
+                 0,
+                 0,
+                 0,
+                 100,
+                 150}};
+    return {{bisection,
+             none,
+             15,
+             true,
+             11640,
+             2805,
+             {0.0555519, 0.545894, 1},
+             {0.0762493, 0.514044, 1},
+             {0.50402, 1.20205, 1.49821},
+             12.6,
+             0.9,
+             3.89,
+             99.63,
+             687},
+            {bisection,
+             longest,
+             15,
+             true,
+             9917,
+             2435,
+             {0.293179, 0.584374, 1},
+             {0.25, 0.554054, 1},
+             {0.717876, 1.24002, 1.49821},
+             1.62,
+             0,
+             0.18,
+             100,
+             600},
+            {rivara,
+             none,
+             15,
+             true,
+             10117,
+             2473,
+             {0.359681, 0.5842, 1},
+             {0.353553, 0.556644, 1},
+             {0.800021, 1.23506, 1.49821},
+             1.12,
+             0,
+             0,
+             100,
+             733},
+            {rivara,
+             longest,
+             15,
+             true,
+             10168,
+             2482,
+             {0.339459, 0.583953, 1},
+             {0.288675, 0.557701, 1},
+             {0.615981, 1.23271, 1.49821},
+             1.27,
+             0,
+             0,
+             99.99,
+             747}};
 }
 
 void require_example(int example) {
@@ -183,7 +282,8 @@ SizeField paper_size(int example) {
     require_example(example);
     if (example == 1) return SizeField(1 / 6.25);
     constexpr double h0 = 0.05, h = 0.85, tau = 3;
-    return SizeField([](const Point& p) { return h0 + h * (1 - std::exp(-p.norm() / tau)); }, "the size of example 2");
+    return SizeField([](const Point& p) { return h0 + h * (1 - std::exp(-p.norm() / tau)); },
+                     "the size of example 2");
 }
 
 PaperExample paper_example(int example) {

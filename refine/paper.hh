@@ -8,8 +8,8 @@
 #include "refine/size_field.hh"
 #include "volmesh/tet_mesh.hh"
 
-/// The numerical examples of "3D mesh refinement procedure using the bisection and Rivara algorithms with mesh quality
-/// assessment", section 5, and the figures that its Tables 1 to 4 print.
+/// The numerical examples of "3D mesh refinement procedure using the bisection and Rivara algorithms with
+/// mesh quality assessment", section 5, and the figures that its Tables 1 to 4 print.
 namespace maille::refine {
 
 struct Spread {
@@ -23,14 +23,14 @@ struct PaperRun {
     int iterations = 0;
     bool ended = true;  ///< false: the cap on the number of passes was hit
     std::uint32_t cells = 0, vertices = 0;
-    Spread sigma;                    ///< r/Lmax, scaled to 1 for the regular tetrahedron
-    Spread tau;                      ///< Lmin/Lmax
-    Spread phi;                      ///< L/Lbar, L being the longest edge, as in the printed values
+    Spread sigma;  ///< r/Lmax, scaled to 1 for the regular tetrahedron
+    Spread tau;    ///< Lmin/Lmax
+    Spread phi;    ///< L/Lbar, L being the longest edge, as in the printed values
     double sigma_below_0_4_percent = 0;
     double sigma_below_0_2_percent = 0;
     double tau_below_0_3_percent = 0;
-    double phi_within_percent = 0;   ///< 2/3 < L/Lbar < 3/2
-    double seconds = 0;              ///< CPU time of the refinement alone
+    double phi_within_percent = 0;  ///< 2/3 < L/Lbar < 3/2
+    double seconds = 0;             ///< CPU time of the refinement alone
 };
 
 /// The quality of a start mesh: Table 1 or 3.
@@ -49,13 +49,14 @@ struct PaperExample {
     std::vector<PaperRun> runs, printed_runs;
 };
 
-/// The start mesh of example 1 (a unit cube of 2x2x2 bricks, 48 tetrahedra) and of example 2 (a hollow cube of edge 5:
-/// the 44 bricks that are left of 5x5x5 when a square tunnel of width 3 is cut along each axis, 264 tetrahedra).
-/// Coordinates are exact, which keeps the ties between edges.
+/// The start mesh of example 1 (a unit cube of 2x2x2 bricks, 48 tetrahedra) and of example 2 (a hollow cube
+/// of edge 5: the 44 bricks that are left of 5x5x5 when a square tunnel of width 3 is cut along each axis,
+/// 264 tetrahedra). Coordinates are exact, which keeps the ties between edges.
 volmesh::TetMesh paper_mesh(int example);
 
-/// The wanted sizes: 1/6.25 of the edge in example 1; D(r) = h0 + H (1 - exp(-r / tau)) in example 2, where the paper
-/// doesn't give h0, H and tau: ours are chosen so that the runs are about as long as the printed ones.
+/// The wanted sizes: 1/6.25 of the edge in example 1; D(r) = h0 + H (1 - exp(-r / tau)) in example 2, where
+/// the paper doesn't give h0, H and tau: ours are chosen so that the runs are about as long as the printed
+/// ones.
 SizeField paper_size(int example);
 
 /// Runs the four algorithms on example 1 or 2. Throws InputError for any other number.

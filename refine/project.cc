@@ -1,8 +1,8 @@
 #include "refine/project.hh"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include <tbb/parallel_for.h>
 
 #include "refine/relocate.hh"
 
@@ -42,7 +42,8 @@ void BoundaryProjection::find_targets() {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, waiting_.size(), 64), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             Waiting& waiting = waiting_[i];
-            const auto target = projector_.project({waiting.support.data(), waiting.support.size()}, mesh_.point(waiting.vertex));
+            const auto target = projector_.project({waiting.support.data(), waiting.support.size()},
+                                                   mesh_.point(waiting.vertex));
             waiting.has_target = target && target->allFinite();
             if (waiting.has_target) waiting.target = *target;
         }
@@ -66,8 +67,8 @@ bool BoundaryProjection::sweep(double least_shape) {
     return has_moved && !waiting_.empty();
 }
 
-/// Moves the vertex to its target or, while cells would break, half as far again and again; returns whether it is
-/// there.
+/// Moves the vertex to its target or, while cells would break, half as far again and again; returns whether
+/// it is there.
 bool BoundaryProjection::approach(Waiting& waiting, double least_shape) {
     const CellList cells = mesh_.vc_range(waiting.vertex);
     const Point from = mesh_.point(waiting.vertex);

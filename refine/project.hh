@@ -9,11 +9,11 @@
 
 namespace maille::refine {
 
-/// Moves vertices onto the true surfaces that they lie on, without ever inverting a cell or, to get there, making one
-/// worse than the shape allowed.
+/// Moves vertices onto the true surfaces that they lie on, without ever inverting a cell or, to get there,
+/// making one worse than the shape allowed.
 ///
-/// A vertex that cannot go all the way goes as far as it can, the vertices inside the mesh round it make room, and it
-/// tries again each time.
+/// A vertex that cannot go all the way goes as far as it can, the vertices inside the mesh round it make
+/// room, and it tries again each time.
 class BoundaryProjection {
   public:
     /// `min_shape`: the least shape (gamma) that a move may leave in a cell that was better before.
@@ -22,7 +22,8 @@ class BoundaryProjection {
     /// Takes up the vertices from `first` on; the cells given are all that have one of them, or more.
     void take_up(std::uint32_t first, std::span<const volmesh::CellHandle> cells);
 
-    /// Moves the vertices that are not on their surfaces yet. Returns the cells whose points have moved, ascending.
+    /// Moves the vertices that are not on their surfaces yet. Returns the cells whose points have moved,
+    /// ascending.
     std::vector<volmesh::CellHandle> run();
     /// The same with all patience: shapes down to a hundredth of the one allowed are accepted at last.
     std::vector<volmesh::CellHandle> insist();

@@ -1,12 +1,12 @@
 #include "refine/refine.hh"
 
-#include <fmt/format.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include "refine/bisector.hh"
 #include "refine/project.hh"
@@ -31,21 +31,13 @@ class Stopwatch {
 
 using Cells = std::vector<CellHandle>;
 
-Cells united(const Cells& a, const Cells& b) {
-    Cells all;
-    all.reserve(a.size() + b.size());
-    std::ranges::set_union(a, b, std::back_inserter(all));
-    return all;
-}
-
-/// One refinement of one mesh, pass by pass. `open_` are the cells that may need refinement: all at first, then those
+/// One refinement of one mesh, pass by pass. The cells that may need refinement are all at first, then those
 /// that have changed since they were last looked at.
 class Refinement {
   public:
     Refinement(TetMesh& mesh, const SizeField& size, const RefineOptions& options,
                const volmesh::Projector* projector)
         : mesh_(mesh), size_(size), options_(options), bisector_(mesh) {
-        for (const auto c : mesh.cells()) open_.push_back(c);
         if (projector != nullptr && options.project) {
             projection_.emplace(mesh, *projector, options.min_shape);
             project(0);
@@ -70,43 +62,49 @@ class Refinement {
                 result_.ended = false;
                 return;
             }
-            pass(marked);
+            const bool has_split = pass(marked);
             ++result_.iterations;
             if (options_.progress) options_.progress({result_.iterations, marked.size(), mesh_.n_cells()});
+            if (!has_split) {
+                result_.ended = false;
+                return;
+            }
         }
     }
 
     Cells mark() {
         const Stopwatch watch(result_.seconds.mark);
-        Cells marked = cells_to_refine(bisector_, open_, size_, options_.ratio);
+        Cells marked = cells_to_refine(bisector_, bisector_.take_changed(), size_, options_.ratio);
         sort_cells(marked, bisector_, options_.order);
-        open_.clear();
         return marked;
     }
 
-    void pass(const Cells& marked) {
+    /// Returns whether any cell was split: those that can't be are looked at again after the next pass.
+    bool pass(const Cells& marked) {
         const std::uint32_t first_new = mesh_.n_vertices();
         {
             const Stopwatch watch(result_.seconds.split);
-            bisector_.begin_pass();
-            for (const CellHandle c : marked) {
-                if (options_.method == Method::rivara)
-                    bisector_.bisect_conforming(c);
-                else
-                    bisector_.bisect(c);
-            }
-            open_ = bisector_.born();
+            Cells refused;
+            for (const CellHandle c : marked)
+                if (!bisect(c)) refused.push_back(c);
+            bisector_.refresh(refused);
         }
         project(first_new);
         if (options_.smooth) smooth(first_new);
+        return mesh_.n_vertices() > first_new;
     }
 
-    /// Brings vertices to their surfaces: the waiting ones and those from `first_new` on, which are in the open cells.
+    bool bisect(CellHandle c) {
+        return options_.method == Method::rivara ? bisector_.bisect_conforming(c) : bisector_.bisect(c);
+    }
+
+    /// Brings vertices to their surfaces: the waiting ones and those from `first_new` on, which are in
+    /// changed cells.
     void project(std::uint32_t first_new) {
         if (!projection_) return;
         const Stopwatch watch(result_.seconds.project);
-        projection_->take_up(first_new, open_);
-        reopen(projection_->run());
+        projection_->take_up(first_new, bisector_.changed());
+        bisector_.refresh(projection_->run());
     }
 
     void smooth(std::uint32_t first_new) {
@@ -115,30 +113,24 @@ class Refinement {
         for (std::uint32_t i = first_new; i < mesh_.n_vertices(); ++i) {
             const VertexHandle v(i);
             const CellList cells = mesh_.vc_range(v);
-            if (is_free(mesh_, v, cells) && relax(mesh_, v, cells)) moved.insert(moved.end(), cells.begin(), cells.end());
+            if (is_free(mesh_, v, cells) && relax(mesh_, v, cells))
+                moved.insert(moved.end(), cells.begin(), cells.end());
         }
-        std::ranges::sort(moved);
-        const auto [repeats, end] = std::ranges::unique(moved);
-        moved.erase(repeats, end);
-        reopen(moved);
-    }
-
-    void reopen(const Cells& moved) {
         bisector_.refresh(moved);
-        open_ = united(open_, moved);
     }
 
-    /// Where vertices still fall short of their surfaces, tries harder, and as a last resort refines the cells in
-    /// their way, so that there are nodes that can make room. Returns whether the size has to be seen to again.
+    /// Where vertices still fall short of their surfaces, tries harder, and as a last resort refines the
+    /// cells in their way, so that there are nodes that can make room. Returns whether the size has to be
+    /// seen to again.
     bool bring_home() {
         if (!projection_ || projection_->is_done()) return false;
         {
             const Stopwatch watch(result_.seconds.project);
-            reopen(projection_->insist());
+            bisector_.refresh(projection_->insist());
         }
         constexpr int max_rescues = 3;
         if (!projection_->is_done() && n_rescues_++ < max_rescues) pass(projection_->obstacles());
-        return !open_.empty();
+        return !bisector_.changed().empty();
     }
 
     TetMesh& mesh_;
@@ -146,7 +138,6 @@ class Refinement {
     const RefineOptions& options_;
     Bisector bisector_;
     std::optional<BoundaryProjection> projection_;
-    Cells open_;
     int n_rescues_ = 0;
     RefineResult result_;
 };
@@ -156,7 +147,8 @@ void require_valid(const TetMesh& mesh, const RefineOptions& options) {
         throw InputError(fmt::format("the refinement ratio must be positive, not {}", options.ratio));
     if (options.max_iterations < 0) throw InputError("the number of iterations cannot be negative");
     if (options.threads < 0) throw InputError("the number of threads cannot be negative");
-    if (mesh.has_deleted()) throw InputError("the mesh has deleted entities: collect them (garbage_collection) first");
+    if (mesh.has_deleted())
+        throw InputError("the mesh has deleted entities: collect them (garbage_collection) first");
 }
 
 }  // namespace

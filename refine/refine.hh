@@ -10,8 +10,8 @@
 #include "volmesh/projector.hh"
 #include "volmesh/tet_mesh.hh"
 
-/// Refinement of tetrahedral meshes after "3D mesh refinement procedure using the bisection and Rivara algorithms with
-/// mesh quality assessment" ("the paper" in this folder).
+/// Refinement of tetrahedral meshes after "3D mesh refinement procedure using the bisection and Rivara
+/// algorithms with mesh quality assessment" ("the paper" in this folder).
 namespace maille::refine {
 
 enum class Method : std::uint8_t {
@@ -28,15 +28,17 @@ struct Progress {
 
 struct RefineOptions {
     Method method = Method::rivara;
-    /// Rivara's mesh does not depend on the order, but for the numbering: ties between edges are broken by a total
-    /// order, which makes the closure of a pass unique. Plain bisection's does.
+    /// Rivara's mesh does not depend on the order, but for the numbering: ties between edges are broken by a
+    /// total order, which makes the closure of a pass unique. Plain bisection's does.
     Order order = Order::none;
-    double ratio = 1.5;  ///< an element is refined while its longest edge is longer than this times the size wanted
+    double ratio =
+        1.5;  ///< an element is refined while its longest edge is longer than this times the size wanted
     int max_iterations = 100;
     std::uint32_t max_cells = 1'000'000'000;  ///< no pass begins with more
     bool project = true;                      ///< where a projector is given
-    /// Lets new nodes inside the mesh move towards the centroid of the polyhedron round them where that betters the
-    /// worst element. Nodes on an interface or in a set keep their places, and so does what was interpolated for them.
+    /// Lets new nodes inside the mesh move towards the centroid of the polyhedron round them where that
+    /// betters the worst element. Nodes on an interface or in a set keep their places, and so does what was
+    /// interpolated for them.
     bool smooth = false;
     double min_shape = 0.05;  ///< the least shape (gamma) that projection leaves in an element, while it can
     int threads = 0;          ///< 0: as many as the machine has; the result does not depend on it
@@ -62,13 +64,14 @@ struct RefineResult {
     Seconds seconds;  ///< of the wall clock, by phase
 };
 
-/// Refines the mesh, in passes, until no element's longest edge is longer than `ratio` times the size at its centroid.
+/// Refines the mesh, in passes, until no element's longest edge is longer than `ratio` times the size at its
+/// centroid.
 ///
-/// The mesh conforms after every split; sets and properties pass on by their rules. With a projector, vertices are
-/// moved onto the surfaces of their faces' sets after each pass, and no element is ever inverted.
-/// Throws InputError where the size is not positive and finite or too small for doubles: the mesh is then refined in
-/// part, and valid. Precondition: valid options, a mesh without deleted cells or vertices, and if `ratio` is much below
-/// 1.5 the elements will be that much smaller than wanted.
+/// The mesh conforms after every split; sets and properties pass on by their rules. With a projector,
+/// vertices are moved onto the surfaces of their faces' sets after each pass, and no element is ever
+/// inverted. Throws InputError where the size is not positive and finite or too small for doubles: the mesh
+/// is then refined in part, and valid. Precondition: valid options, a mesh without deleted cells or vertices,
+/// and if `ratio` is much below 1.5 the elements will be that much smaller than wanted.
 RefineResult refine(volmesh::TetMesh& mesh, const SizeField& size, const RefineOptions& options = {},
                     const volmesh::Projector* projector = nullptr);
 

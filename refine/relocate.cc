@@ -1,29 +1,22 @@
 #include "refine/relocate.hh"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "volmesh/orientation.hh"
 
 namespace maille::refine {
 
-double certain_shape(const Point& a, const Point& b, const Point& c, const Point& d) {
-    const Point ad = a - d, bd = b - d, cd = c - d;
-    const double bc = bd.x() * cd.y(), cb = cd.x() * bd.y();
-    const double ca = cd.x() * ad.y(), ac = ad.x() * cd.y();
-    const double ab = ad.x() * bd.y(), ba = bd.x() * ad.y();
-    const double det = -(ad.z() * (bc - cb) + bd.z() * (ca - ac) + cd.z() * (ab - ba));
-    const double bound = (std::abs(bc) + std::abs(cb)) * std::abs(ad.z()) +
-                         (std::abs(ca) + std::abs(ac)) * std::abs(bd.z()) +
-                         (std::abs(ab) + std::abs(ba)) * std::abs(cd.z());
-    // J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997:
-    // the error of this determinant is at most (7 + 56 e) e times the bound, e = 2^-53.
-    constexpr double error = 7.7715611723761027e-16;
-    if (!(det > error * bound)) return 0;
-    const double mean_square = (ad.squaredNorm() + bd.squaredNorm() + cd.squaredNorm() + (a - b).squaredNorm() +
-                                (a - c).squaredNorm() + (b - c).squaredNorm()) /
-                               6;
-    return std::sqrt(2.0) * det / (mean_square * std::sqrt(mean_square));
+double shape(const Point& a, const Point& b, const Point& c, const Point& d) {
+    if (volmesh::orientation(a, b, c, d) <= 0) return 0;
+    const Point u = b - a, v = c - a, w = d - a;
+    const double squares = u.squaredNorm() + v.squaredNorm() + w.squaredNorm() + (v - u).squaredNorm() +
+                           (w - u).squaredNorm() + (w - v).squaredNorm();
+    const double mean_square = squares / 6;
+    return std::max(std::numbers::sqrt2 * u.cross(v).dot(w) / (mean_square * std::sqrt(mean_square)), 0.0);
 }
 
 double worst_shape(const TetMesh& mesh, const CellList& cells, VertexHandle v, const Point& at) {
@@ -31,7 +24,7 @@ double worst_shape(const TetMesh& mesh, const CellList& cells, VertexHandle v, c
     for (const CellHandle c : cells) {
         auto p = mesh.cell_points(c);
         p[mesh.local_vertex(c, v)] = at;
-        worst = std::min(worst, certain_shape(p[0], p[1], p[2], p[3]));
+        worst = std::min(worst, shape(p[0], p[1], p[2], p[3]));
     }
     return worst;
 }

@@ -1,8 +1,8 @@
+#include <numbers>
+
 #include <fmt/format.h>
 #include <muParser.h>
 #include <tbb/enumerable_thread_specific.h>
-
-#include <numbers>
 
 #include "refine/size_field.hh"
 #include "volmesh/error.hh"
@@ -59,7 +59,8 @@ class Evaluator {
 void refuse_assignment(const std::string& expression) {
     for (std::size_t i = 0; i < expression.size(); ++i) {
         if (expression[i] != '=') continue;
-        const bool after = i > 0 && std::string_view("<>!=").find(expression[i - 1]) != std::string_view::npos;
+        const bool after =
+            i > 0 && std::string_view("<>!=").find(expression[i - 1]) != std::string_view::npos;
         const bool before = i + 1 < expression.size() && expression[i + 1] == '=';
         if (!after && !before) refuse(expression, "unexpected \"=\"", static_cast<int>(i));
     }

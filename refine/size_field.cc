@@ -1,9 +1,9 @@
 #include "refine/size_field.hh"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "volmesh/error.hh"
 
@@ -12,7 +12,8 @@ namespace maille::refine {
 SizeField::SizeField(double length) {
     if (!(length > 0) || !std::isfinite(length))
         throw InputError(fmt::format("a size must be a positive length, not {}", length));
-    source_ = std::make_shared<Source>(Source{[length](const Point&) { return length; }, "the constant size"});
+    source_ =
+        std::make_shared<Source>(Source{[length](const Point&) { return length; }, "the constant size"});
 }
 
 SizeField::SizeField(std::function<double(const Point&)> function, std::string name)

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "volmesh/tet_mesh.hh"
 
@@ -32,15 +33,17 @@ class SizeField {
 };
 
 /// The size that an expression of x, y, z and r, the distance from the origin, gives:
-/// `0.02+0.2*(1-exp(-r/0.3))`. Throws InputError in plain words, with the place in the text, where it can't be read.
+/// `0.02+0.2*(1-exp(-r/0.3))`. Throws InputError in plain words, with the place in the text, where it can't
+/// be read.
 SizeField parse_size(const std::string& expression);
 
 /// The smallest of several sizes at each point. Precondition: at least one.
 SizeField minimum(std::vector<SizeField> fields);
 
-/// The size that a mesh carries as a property of real numbers: of its vertices, linear in each cell, or of its cells.
-/// Outside the mesh it is that of the nearest point of the mesh. The field keeps a copy of what it needs of the mesh.
-/// Throws InputError where the mesh has no cell or no such property, or a value is not positive and finite.
+/// The size that a mesh carries as a property of real numbers: of its vertices, linear in each cell, or of
+/// its cells. Outside the mesh it is that of the nearest point of the mesh. The field keeps a copy of what it
+/// needs of the mesh. Throws InputError where the mesh has no cell or no such property, or a value is not
+/// positive and finite.
 SizeField mesh_size(const volmesh::TetMesh& mesh, const std::string& property);
 
 }  // namespace maille::refine

@@ -39,7 +39,8 @@ std::vector<std::pair<volmesh::VertexHandle, Support>> Supports::of_vertices_fro
     }
     std::vector<std::pair<volmesh::VertexHandle, Support>> found;
     for (std::uint32_t i = 0; i < supports.size(); ++i)
-        if (!supports[i].empty()) found.emplace_back(volmesh::VertexHandle(first + i), std::move(supports[i]));
+        if (!supports[i].empty())
+            found.emplace_back(volmesh::VertexHandle(first + i), std::move(supports[i]));
     return found;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -8,6 +7,8 @@
 #include <random>
 #include <set>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "volmesh/tet_mesh.hh"
 
@@ -38,7 +39,9 @@ struct Soup {
 /// [0,1]^3 in n^3 Kuhn bricks.
 inline Soup kuhn_cube(int n) {
     Soup soup;
-    const auto node = [n](int x, int y, int z) { return static_cast<std::uint32_t>(x + (n + 1) * (y + (n + 1) * z)); };
+    const auto node = [n](int x, int y, int z) {
+        return static_cast<std::uint32_t>(x + (n + 1) * (y + (n + 1) * z));
+    };
     for (int z = 0; z <= n; ++z)
         for (int y = 0; y <= n; ++y)
             for (int x = 0; x <= n; ++x) soup.points.push_back(Point(x, y, z) / n);

@@ -1,6 +1,6 @@
-#include <doctest/doctest.h>
-
 #include <cmath>
+
+#include <doctest/doctest.h>
 
 #include "meshes.hh"
 #include "refine/refine.hh"
@@ -22,10 +22,18 @@ namespace {
 
 const SizeField graded([](const Point& p) { return 0.03 + 0.3 * (p - Point(0.4, 0.3, 0.2)).norm(); });
 
-bool is_on_rim(const Point& p) { return p.x() == 0 && p.y() == 0; }
-bool is_on_diagonal(const Point& p) { return p.x() == p.y() && p.y() == p.z() && p.z() <= 0.5; }
-bool is_on_half_bottom(const Point& p) { return p.z() == 0 && p.x() <= 0.5; }
-bool is_on_wall(const Point& p) { return p.x() == 0.5; }
+bool is_on_rim(const Point& p) {
+    return p.x() == 0 && p.y() == 0;
+}
+bool is_on_diagonal(const Point& p) {
+    return p.x() == p.y() && p.y() == p.z() && p.z() <= 0.5;
+}
+bool is_on_half_bottom(const Point& p) {
+    return p.z() == 0 && p.x() <= 0.5;
+}
+bool is_on_wall(const Point& p) {
+    return p.x() == 0.5;
+}
 
 template <class Points>
 bool all(const Points& points, bool (*holds)(const Point&)) {
@@ -92,7 +100,8 @@ void check_faces(const TetMesh& mesh, SetHandle set, bool (*holds)(const Point&)
 }
 
 RefineResult ten_passes(TetMesh& mesh, Method method) {
-    const RefineResult result = refine(mesh, graded, {.method = method, .order = Order::longest, .max_iterations = 10});
+    const RefineResult result =
+        refine(mesh, graded, {.method = method, .order = Order::longest, .max_iterations = 10});
     CHECK(result.iterations == 10);
     CHECK(maille::volmesh::validate(mesh).ok());
     return result;
@@ -109,8 +118,10 @@ TEST_CASE("edge, face and vertex sets are where geometry says after ten passes")
         const auto wall = face_set(mesh, "wall", is_on_wall, SetRule::copy());
         const auto rim_ends = vertex_set(mesh, "rim ends", is_on_rim, SetRule::both_ends(rim));
         const auto wall_nodes = vertex_set(mesh, "wall nodes", is_on_wall, SetRule::both_ends());
-        const auto diagonal_nodes = vertex_set(mesh, "diagonal nodes", is_on_diagonal, SetRule::from_edges(diagonal));
-        const auto bottom_nodes = vertex_set(mesh, "bottom nodes", is_on_half_bottom, SetRule::from_faces(bottom));
+        const auto diagonal_nodes =
+            vertex_set(mesh, "diagonal nodes", is_on_diagonal, SetRule::from_edges(diagonal));
+        const auto bottom_nodes =
+            vertex_set(mesh, "bottom nodes", is_on_half_bottom, SetRule::from_faces(bottom));
         ten_passes(mesh, method);
         check_edges(mesh, rim, is_on_rim);
         check_edges(mesh, diagonal, is_on_diagonal);
@@ -141,9 +152,11 @@ TEST_CASE("what is not inherited stays with the entities that are left as they w
         return std::ranges::all_of(vertices, [&](const auto v) { return v.idx() < first_new; });
     };
     for (const auto e : mesh.edges())
-        CHECK(mesh.contains(rim, EdgeHandle(e)) == (is_old(mesh.edge_vertices(e)) && all(ends(mesh, e), is_on_rim)));
+        CHECK(mesh.contains(rim, EdgeHandle(e)) ==
+              (is_old(mesh.edge_vertices(e)) && all(ends(mesh, e), is_on_rim)));
     for (const auto f : mesh.faces())
-        CHECK(mesh.contains(wall, FaceHandle(f)) == (is_old(mesh.face_vertices(f)) && all(corners(mesh, f), is_on_wall)));
+        CHECK(mesh.contains(wall, FaceHandle(f)) ==
+              (is_old(mesh.face_vertices(f)) && all(corners(mesh, f), is_on_wall)));
     for (const auto c : mesh.cells()) CHECK(mesh.contains(cells, CellHandle(c)) == is_old(c.vertices()));
     CHECK(mesh.set_size(wall) > 0);
     CHECK(mesh.set_size(cells) > 0);
@@ -163,14 +176,16 @@ TEST_CASE("cell sets, custom rules and overlapping sets hold after ten passes") 
     VertexHandle corner;
     for (const auto v : mesh.vertices())
         if (v.point() == Point::Zero()) corner = VertexHandle(v);
-    const auto tip = mesh.add_set("tip", EntityKind::cell, SetRule::custom([corner](const TetMesh&, auto cell, auto...) {
-                                      return std::ranges::find(cell, corner) != cell.end();
-                                  }));
+    const auto tip =
+        mesh.add_set("tip", EntityKind::cell, SetRule::custom([corner](const TetMesh&, auto cell, auto...) {
+                         return std::ranges::find(cell, corner) != cell.end();
+                     }));
     for (const CellHandle c : mesh.vc_range(corner)) mesh.insert(tip, c);
-    const auto probes = mesh.add_set("probes", EntityKind::vertex,
-                                     SetRule::custom([](const TetMesh& m, auto, auto, auto, VertexHandle born) {
-                                         return m.point(born).x() > 0.5;
-                                     }));
+    const auto probes =
+        mesh.add_set("probes", EntityKind::vertex,
+                     SetRule::custom([](const TetMesh& m, auto, auto, auto, VertexHandle born) {
+                         return m.point(born).x() > 0.5;
+                     }));
     const RefineResult result = ten_passes(mesh, Method::rivara);
     for (const auto c : mesh.cells()) {
         const std::uint32_t ancestor = result.lineage.cell_ancestors[c.idx()];
@@ -179,9 +194,11 @@ TEST_CASE("cell sets, custom rules and overlapping sets hold after ten passes") 
         CHECK(mesh.contains(tip, CellHandle(c)) == (mesh.local_vertex(c, corner) >= 0));
     }
     for (const auto v : mesh.vertices())
-        CHECK(mesh.contains(probes, VertexHandle(v)) == (v.idx() >= before.n_vertices() && v.point().x() > 0.5));
+        CHECK(mesh.contains(probes, VertexHandle(v)) ==
+              (v.idx() >= before.n_vertices() && v.point().x() > 0.5));
     double volume = 0;
-    for (std::uint32_t i = 1; i < before.n_cells(); i += 2) volume += maille::volmesh::volume(before, CellHandle(i));
+    for (std::uint32_t i = 1; i < before.n_cells(); i += 2)
+        volume += maille::volmesh::volume(before, CellHandle(i));
     CHECK(maille::volmesh::measure(mesh, odd) == doctest::Approx(volume));
 }
 
@@ -192,11 +209,14 @@ TEST_CASE("vertex properties follow their rules through ten passes") {
     maille::volmesh::VPropHandleT<Point> place;
     maille::volmesh::VPropHandleT<int> label;
     mesh.add_property(temperature, "temperature", {PropertyRule::interpolate});
-    mesh.add_property(place, "place", PropertyHeritage<Point>{PropertyRule::interpolate}, Point(Point::Zero()));
+    mesh.add_property(place, "place", PropertyHeritage<Point>{PropertyRule::interpolate},
+                      Point(Point::Zero()));
     mesh.add_property(label, "label", {PropertyRule::copy});
     mesh.add_property(blank, "blank", {PropertyRule::none}, -7.0);
     PropertyHeritage<double> geometric;
-    geometric.at_vertex = [](double a, double b, double ratio) { return std::pow(a, 1 - ratio) * std::pow(b, ratio); };
+    geometric.at_vertex = [](double a, double b, double ratio) {
+        return std::pow(a, 1 - ratio) * std::pow(b, ratio);
+    };
     mesh.add_property(growth, "growth", geometric);
     const auto n_before = mesh.n_vertices();
     for (const auto v : mesh.vertices()) {
@@ -208,11 +228,14 @@ TEST_CASE("vertex properties follow their rules through ten passes") {
     }
     const RefineResult result = ten_passes(mesh, Method::rivara);
     for (const auto v : mesh.vertices()) {
-        CHECK(mesh.property(temperature, VertexHandle(v)) == doctest::Approx(linear(v.point())).epsilon(1e-13));
+        CHECK(mesh.property(temperature, VertexHandle(v)) ==
+              doctest::Approx(linear(v.point())).epsilon(1e-13));
         CHECK((mesh.property(place, VertexHandle(v)) - v.point()).norm() < 1e-14);
-        CHECK(mesh.property(growth, VertexHandle(v)) == doctest::Approx(std::exp(linear(v.point()))).epsilon(1e-12));
+        CHECK(mesh.property(growth, VertexHandle(v)) ==
+              doctest::Approx(std::exp(linear(v.point()))).epsilon(1e-12));
         std::uint32_t oldest = v.idx();
-        while (oldest >= n_before) oldest = std::ranges::min(result.lineage.vertex_parents[oldest - n_before]);
+        while (oldest >= n_before)
+            oldest = std::ranges::min(result.lineage.vertex_parents[oldest - n_before]);
         CHECK(mesh.property(label, VertexHandle(v)) == static_cast<int>(oldest));
         CHECK(mesh.property(blank, VertexHandle(v)) == (v.idx() < n_before ? v.idx() : -7.0));
     }
@@ -244,7 +267,8 @@ TEST_CASE("cell properties follow their rules, and shared ones keep their sums")
         const std::uint32_t ancestor = result.lineage.cell_ancestors[c.idx()];
         const double volume = maille::volmesh::volume(mesh, c);
         const double halvings = std::log2(maille::volmesh::volume(before, CellHandle(ancestor)) / volume);
-        CHECK(mesh.property(mass, CellHandle(c)) == doctest::Approx(density(ancestor) * volume).epsilon(1e-9));
+        CHECK(mesh.property(mass, CellHandle(c)) ==
+              doctest::Approx(density(ancestor) * volume).epsilon(1e-9));
         CHECK(mesh.property(material, CellHandle(c)) == static_cast<int>(ancestor));
         CHECK(mesh.property(generation, CellHandle(c)) == std::lround(halvings));
         CHECK(mesh.property(blank, CellHandle(c)) == (std::lround(halvings) == 0 ? ancestor : -7.0));
@@ -259,7 +283,9 @@ TEST_CASE("loads on edges and faces are shared by length and area") {
     maille::volmesh::FPropHandleT<double> pressure_force;
     mesh.add_property(line_load, "line load", {PropertyRule::share});
     mesh.add_property(pressure_force, "force", {PropertyRule::share});
-    const auto length = [&](const TetMesh& m, EdgeHandle e) { return (ends(m, e)[0] - ends(m, e)[1]).norm(); };
+    const auto length = [&](const TetMesh& m, EdgeHandle e) {
+        return (ends(m, e)[0] - ends(m, e)[1]).norm();
+    };
     const auto area = [&](const TetMesh& m, FaceHandle f) {
         const auto p = corners(m, f);
         return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
@@ -267,7 +293,8 @@ TEST_CASE("loads on edges and faces are shared by length and area") {
     for (const auto e : mesh.edges())
         if (all(ends(mesh, e), is_on_diagonal)) mesh.property(line_load, EdgeHandle(e)) = 3 * length(mesh, e);
     for (const auto f : mesh.faces())
-        if (all(corners(mesh, f), is_on_wall)) mesh.property(pressure_force, FaceHandle(f)) = 2 * area(mesh, f);
+        if (all(corners(mesh, f), is_on_wall))
+            mesh.property(pressure_force, FaceHandle(f)) = 2 * area(mesh, f);
     ten_passes(mesh, Method::rivara);
     double line_sum = 0, force_sum = 0;
     for (const auto e : mesh.edges()) {

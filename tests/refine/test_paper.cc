@@ -38,10 +38,11 @@ TEST_CASE("example 1 comes out as the paper's Table 2") {
     for (std::size_t i = 0; i < 4; ++i) {
         CHECK(cube.runs[i].method == cube.printed_runs[i].method);
         CHECK(cube.runs[i].order == cube.printed_runs[i].order);
-        MESSAGE(cube.runs[i].iterations, " ", cube.runs[i].ended, " ", cube.runs[i].cells, " ", cube.runs[i].vertices,
-                " sigma ", cube.runs[i].sigma.min, " ", cube.runs[i].sigma.mean, " tau ", cube.runs[i].tau.min, " ",
-                cube.runs[i].tau.mean, " phi ", cube.runs[i].phi.min, " ", cube.runs[i].phi.mean, " ",
-                cube.runs[i].phi.max, " % ", cube.runs[i].sigma_below_0_4_percent);
+        MESSAGE(cube.runs[i].iterations, " ", cube.runs[i].ended, " ", cube.runs[i].cells, " ",
+                cube.runs[i].vertices, " sigma ", cube.runs[i].sigma.min, " ", cube.runs[i].sigma.mean,
+                " tau ", cube.runs[i].tau.min, " ", cube.runs[i].tau.mean, " phi ", cube.runs[i].phi.min, " ",
+                cube.runs[i].phi.mean, " ", cube.runs[i].phi.max, " % ",
+                cube.runs[i].sigma_below_0_4_percent);
     }
 }
 
@@ -51,9 +52,10 @@ TEST_CASE("example 2 bears out the claims of Table 4") {
             frame.start.tau.mean, " ", frame.printed_start.tau.mean, " ", frame.start.radius_ratio.mean, " ",
             frame.printed_start.radius_ratio.mean);
     for (std::size_t i = 0; i < 4; ++i) {
-        MESSAGE(frame.runs[i].iterations, " ", frame.runs[i].ended, " ", frame.runs[i].cells, " ", frame.runs[i].vertices,
-                " sigma ", frame.runs[i].sigma.min, " ", frame.runs[i].sigma.mean, " tau ", frame.runs[i].tau.min, " ",
-                frame.runs[i].tau.mean, " phi ", frame.runs[i].phi.min, " ", frame.runs[i].phi.mean, " ",
-                frame.runs[i].phi.max, " % ", frame.runs[i].sigma_below_0_4_percent);
+        MESSAGE(frame.runs[i].iterations, " ", frame.runs[i].ended, " ", frame.runs[i].cells, " ",
+                frame.runs[i].vertices, " sigma ", frame.runs[i].sigma.min, " ", frame.runs[i].sigma.mean,
+                " tau ", frame.runs[i].tau.min, " ", frame.runs[i].tau.mean, " phi ", frame.runs[i].phi.min,
+                " ", frame.runs[i].phi.mean, " ", frame.runs[i].phi.max, " % ",
+                frame.runs[i].sigma_below_0_4_percent);
     }
 }

@@ -1,7 +1,7 @@
-#include <doctest/doctest.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <doctest/doctest.h>
 
 #include "meshes.hh"
 #include "refine/refine.hh"
@@ -47,7 +47,9 @@ TetMesh ball(int n) {
     return mesh;
 }
 
-Point on_sphere(const Point& p, double radius) { return radius * p.normalized(); }
+Point on_sphere(const Point& p, double radius) {
+    return radius * p.normalized();
+}
 
 Projector ball_projector() {
     return {{"ball/surface"}, [](auto, const Point& p) { return on_sphere(p, 1); }, 2 * std::sqrt(3.0)};
@@ -71,7 +73,9 @@ TetMesh cylinder(int n) {
     }
     for (auto& t : soup.tets) test::orient(soup.points, t);
     TetMesh mesh = soup.mesh();
-    name_faces(mesh, [](const Point& p) { return p.z() > 0.999 ? "c/top" : p.z() < -0.999 ? "c/bottom" : "c/side"; });
+    name_faces(mesh, [](const Point& p) {
+        return p.z() > 0.999 ? "c/top" : p.z() < -0.999 ? "c/bottom" : "c/side";
+    });
     return mesh;
 }
 
@@ -89,8 +93,8 @@ Projector cylinder_projector() {
     return {{"c/side", "c/top", "c/bottom"}, project, std::sqrt(12.0)};
 }
 
-/// The cube [-1,1]^3 less a ball: its cells are those of n^3 bricks outside the inner cube of the bricks, of which one
-/// layer is left on each side. The nodes of the cavity are drawn onto the sphere.
+/// The cube [-1,1]^3 less a ball: its cells are those of n^3 bricks outside the inner cube of the bricks, of
+/// which one layer is left on each side. The nodes of the cavity are drawn onto the sphere.
 TetMesh cube_with_cavity(int n, double radius) {
     Soup soup = test::kuhn_cube(n);
     const double inner = 1 - 2.0 / n;

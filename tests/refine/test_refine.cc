@@ -1,7 +1,7 @@
-#include <doctest/doctest.h>
-
 #include <cmath>
 #include <map>
+
+#include <doctest/doctest.h>
 
 #include "meshes.hh"
 #include "quality/measures.hh"
@@ -43,8 +43,9 @@ void check_valid(const TetMesh& mesh, double volume) {
 
 const SizeField graded([](const Point& p) { return 0.06 + 0.4 * p.norm(); });
 
-/// Rivara's algorithm as the paper words it, on bare tetrahedra that need not conform until a pass is over: step 3
-/// bisects each element of E_t alone, step 4 any element that has a split edge, at its own longest edge.
+/// Rivara's algorithm as the paper words it, on bare tetrahedra that need not conform until a pass is over:
+/// step 3 bisects each element of E_t alone, step 4 any element that has a split edge, at its own longest
+/// edge.
 class NaiveRivara {
   public:
     explicit NaiveRivara(const Soup& soup) : soup_(soup) {}
@@ -74,7 +75,8 @@ class NaiveRivara {
     Edge longest_edge(const Tet& t) const {
         const auto key = [&](const Edge& e) {
             const Point d = at_(e.first) - at_(e.second), s = at_(e.first) + at_(e.second);
-            return std::tuple(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), s.x(), s.y(), s.z(), e.first, e.second);
+            return std::tuple(d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), s.x(), s.y(), s.z(), e.first,
+                              e.second);
         };
         Edge best{std::min(t[0], t[1]), std::max(t[0], t[1])};
         for (int i = 0; i < 4; ++i)
@@ -87,7 +89,8 @@ class NaiveRivara {
 
     void bisect(const Tet& t) {
         const Edge e = longest_edge(t);
-        const auto [place, is_new] = midpoints_.try_emplace(e, static_cast<std::uint32_t>(soup_.points.size()));
+        const auto [place, is_new] =
+            midpoints_.try_emplace(e, static_cast<std::uint32_t>(soup_.points.size()));
         if (is_new) soup_.points.push_back(0.5 * (at_(e.first) + at_(e.second)));
         for (const std::uint32_t end : {e.first, e.second}) {
             Tet child = t;
@@ -128,7 +131,8 @@ TEST_CASE("every algorithm gives a valid mesh as fine as wanted") {
                 CAPTURE(seed);
                 TetMesh mesh = test::random_cube(3, seed, 0.3).mesh();
                 const RefineResult result =
-                    refine(mesh, graded, {.method = method, .order = order, .max_iterations = 60, .max_cells = 40000});
+                    refine(mesh, graded,
+                           {.method = method, .order = order, .max_iterations = 60, .max_cells = 40000});
                 check_valid(mesh, 1);
                 CHECK(result.cells == mesh.n_cells());
                 CHECK(result.vertices == mesh.n_vertices());
@@ -224,7 +228,8 @@ TEST_CASE("plain bisection that doesn't end is capped") {
     int n_capped = 0;
     for (unsigned seed = 1; seed <= 12; ++seed) {
         TetMesh mesh = test::random_cube(2, seed, 0.3).mesh();
-        const RefineResult result = refine(mesh, SizeField(0.12), {.method = Method::bisection, .max_iterations = 40});
+        const RefineResult result =
+            refine(mesh, SizeField(0.12), {.method = Method::bisection, .max_iterations = 40});
         n_capped += !result.ended;
         CHECK(result.ended == is_fine(mesh, SizeField(0.12), 1.5));
         check_valid(mesh, 1);

@@ -1,8 +1,8 @@
-#include <doctest/doctest.h>
-
 #include <cmath>
 #include <random>
 #include <thread>
+
+#include <doctest/doctest.h>
 
 #include "meshes.hh"
 #include "refine/size_field.hh"
@@ -22,7 +22,9 @@ std::string message(const auto& action) {
     }
     return "";
 }
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -35,7 +37,8 @@ TEST_CASE("an expression is a function of x, y, z and r") {
     CHECK(parse_size("0.5")(Point(9, 9, 9)) == 0.5);
     CHECK(parse_size("1 + x + 10*y + 100*z")(Point(1, 2, 3)) == 322);
     CHECK(parse_size("r")(Point(2, 3, 6)) == 7);
-    CHECK(parse_size("0.02+0.2*(1-exp(-r/0.3))")(Point(0, 0, 0.3)) == doctest::Approx(0.02 + 0.2 * (1 - std::exp(-1))));
+    CHECK(parse_size("0.02+0.2*(1-exp(-r/0.3))")(Point(0, 0, 0.3)) ==
+          doctest::Approx(0.02 + 0.2 * (1 - std::exp(-1))));
     CHECK(parse_size("x < 1 ? 0.1 : pi")(Point(2, 0, 0)) == doctest::Approx(3.14159265358979));
     CHECK(parse_size("min(x, 2, y^2)")(Point(5, 1.2, 0)) == doctest::Approx(1.44));
 }
@@ -72,7 +75,8 @@ TEST_CASE("a size that is not positive names the place") {
 }
 
 TEST_CASE("the smallest of several sizes") {
-    const SizeField size = minimum({SizeField(0.5), parse_size("x"), SizeField([](const Point& p) { return p.y(); })});
+    const SizeField size =
+        minimum({SizeField(0.5), parse_size("x"), SizeField([](const Point& p) { return p.y(); })});
     CHECK(size(Point(1, 1, 0)) == 0.5);
     CHECK(size(Point(0.2, 1, 0)) == 0.2);
     CHECK(size(Point(0.2, 0.1, 0)) == 0.1);
