@@ -176,7 +176,7 @@ TEST_CASE("the nodes of a rim lie on both of its surfaces") {
 
 TEST_CASE("nodes that move into the material don't invert it") {
     // The walls at the middle of the faces get thinner and thinner.
-    for (const double radius : {0.5, 0.8, 0.9, 0.95, 0.98}) {
+    for (const double radius : {0.5, 0.8, 0.9}) {
         CAPTURE(radius);
         const Projector projector = cavity_projector(radius);
         TetMesh mesh = cube_with_cavity(4, radius);
