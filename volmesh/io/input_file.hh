@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace maille::volmesh::io {
+
+/// A whole file in memory. Throws InputError where it cannot be read.
+class InputFile {
+  public:
+    explicit InputFile(const std::filesystem::path& path);
+
+    std::string_view text() const { return {data_.get(), size_}; }
+    const std::string& name() const { return name_; }
+
+    /// Throws InputError: "<name>:<line>: <message>" for a place in the text, "<name>: byte <offset>:
+    /// <message>".
+    [[noreturn]] void fail_at_line(const char* place, const std::string& message) const;
+    [[noreturn]] void fail_at_byte(const char* place, const std::string& message) const;
+
+  private:
+    std::string name_;
+    std::size_t size_ = 0;
+    std::unique_ptr<char[]> data_;
+};
+
+}  // namespace maille::volmesh::io

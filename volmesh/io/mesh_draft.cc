@@ -1,0 +1,113 @@
+#include "volmesh/io/mesh_draft.hh"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "volmesh/error.hh"
+#include "volmesh/orientation.hh"
+
+namespace maille::volmesh::io {
+
+namespace {
+
+using Index = TetMesh::Index;
+
+void turn_inverted_cells(MeshDraft& draft) {
+    tbb::parallel_for(std::size_t{0}, draft.cells.size(), [&](std::size_t i) {
+        auto& cell = draft.cells[i];
+        const auto point = [&](int k) -> const Point& { return draft.points[cell[k]]; };
+        if (orientation(point(0), point(1), point(2), point(3)) < 0) std::swap(cell[2], cell[3]);
+    });
+}
+
+template <std::size_t N>
+void require_vertices(const std::vector<std::array<Index, N>>& elements, std::size_t n_points,
+                      const char* what) {
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        for (Index v : elements[i])
+            if (v >= n_points)
+                throw InputError(
+                    fmt::format("{} {} has vertex {}, but there are only {} vertices (all numbers from 0)",
+                                what, i, v, n_points));
+}
+
+HalffaceHandle halfface_of(const TetMesh& mesh, const std::array<Index, 3>& face, const std::string& set) {
+    const auto [a, b, c] = face;
+    const HalffaceHandle hf = mesh.find_halfface(VertexHandle(a), VertexHandle(b), VertexHandle(c));
+    if (!hf.is_valid())
+        throw InputError(
+            fmt::format("group '{}' has the triangle of vertices {} (from 0), which is no face of a "
+                        "tetrahedron",
+                        set, fmt::join(face, ", ")));
+    return hf;
+}
+
+std::pair<CellHandle, int> edge_place_of(const TetMesh& mesh, const std::array<Index, 2>& edge,
+                                         const std::string& set) {
+    const VertexHandle a(edge[0]);
+    const VertexHandle b(edge[1]);
+    const CellList cells = mesh.cells_around(a, b);
+    if (a == b || cells.empty())
+        throw InputError(
+            fmt::format("group '{}' has the line of vertices {} (from 0), which is no edge of a "
+                        "tetrahedron",
+                        set, fmt::join(edge, ", ")));
+    return {cells.front(), mesh.local_edge(cells.front(), a, b)};
+}
+
+void insert_members(TetMesh& mesh, const MeshDraft& draft, const MeshDraft::Set& set) {
+    const SetHandle s = mesh.add_set(set.name, set.kind);
+    for (Index member : set.members) {
+        switch (set.kind) {
+            case EntityKind::vertex:
+                mesh.insert(s, VertexHandle(member));
+                break;
+            case EntityKind::edge: {
+                const auto [cell, local_edge] = edge_place_of(mesh, draft.edges[member], set.name);
+                mesh.insert(s, cell, local_edge);
+                break;
+            }
+            case EntityKind::face:
+                mesh.insert(s, halfface_of(mesh, draft.faces[member], set.name));
+                break;
+            case EntityKind::cell:
+                mesh.insert(s, CellHandle(member));
+                break;
+        }
+    }
+}
+
+}  // namespace
+
+MeshDraft::Set& MeshDraft::set(const std::string& name, EntityKind kind) {
+    const auto [at, is_new] = set_numbers_.try_emplace({name, kind}, sets.size());
+    if (is_new) sets.push_back({name, kind, {}});
+    return sets[at->second];
+}
+
+std::string group_name(long long number) {
+    return fmt::format("group{}", number);
+}
+
+EntityKind kind_of_dimension(int dimension) {
+    return static_cast<EntityKind>(dimension);
+}
+
+TetMesh assemble(MeshDraft draft, const std::filesystem::path& path) {
+    try {
+        require_vertices(draft.cells, draft.points.size(), "tetrahedron");
+        require_vertices(draft.faces, draft.points.size(), "triangle");
+        require_vertices(draft.edges, draft.points.size(), "line");
+        turn_inverted_cells(draft);
+        TetMesh mesh = TetMesh::from_cells(std::move(draft.points), std::move(draft.cells));
+        for (const MeshDraft::Set& set : draft.sets) insert_members(mesh, draft, set);
+        add_fields(mesh, draft.fields);
+        return mesh;
+    } catch (const InputError& error) {
+        throw InputError(path.string() + ": " + error.what());
+    }
+}
+
+}  // namespace maille::volmesh::io

@@ -1,0 +1,372 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include <fmt/core.h>
+#include <pugixml.hpp>
+
+#include "volmesh/error.hh"
+#include "volmesh/io/formats.hh"
+#include "volmesh/io/input_file.hh"
+#include "volmesh/io/mesh_draft.hh"
+#include "volmesh/io/vtk_arrays.hh"
+#include "volmesh/io/vtk_names.hh"
+
+namespace maille::volmesh::io {
+
+namespace {
+
+using Index = TetMesh::Index;
+
+/// The file's tree, and where its appended arrays are.
+class VtuFile {
+  public:
+    explicit VtuFile(const Path& path);
+
+    pugi::xml_node piece() const { return piece_; }
+    /// An attribute of the piece, a count.
+    std::size_t count(const char* attribute) const;
+
+    struct Array {
+        vtk::Numbers numbers;
+        std::size_t n_components;
+    };
+    Array array(pugi::xml_node node) const;
+
+    [[noreturn]] void fail(const std::string& message) const {
+        throw InputError(file_.name() + ": " + message);
+    }
+
+  private:
+    /// Parses all but the appended arrays, which are not XML.
+    void parse();
+    void find_appended(std::size_t tag);
+    std::string encoded_bytes(pugi::xml_node node) const;
+
+    InputFile file_;
+    pugi::xml_document document_;
+    pugi::xml_node piece_;
+    vtk::Encoding encoding_;
+    std::string_view appended_;
+    bool is_appended_base64_ = false;
+};
+
+VtuFile::VtuFile(const Path& path) : file_(path) {
+    parse();
+    const auto root = document_.child("VTKFile");
+    if (std::string_view(root.attribute("type").value()) != "UnstructuredGrid")
+        fail("is not an unstructured grid of VTK's");
+    if (std::string_view(root.attribute("byte_order").as_string("LittleEndian")) != "LittleEndian")
+        fail("was written by a machine of the other byte order");
+    const std::string_view compressor = root.attribute("compressor").value();
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+        fail(fmt::format("is compressed by {}, which cannot be read: choose zlib or none", compressor));
+    const std::string_view head_type = root.attribute("header_type").as_string("UInt32");
+    if (head_type != "UInt32" && head_type != "UInt64")
+        fail(fmt::format("has an unknown header_type, '{}'", head_type));
+    encoding_ = {!compressor.empty(), head_type == "UInt64"};
+    const auto grid = root.child("UnstructuredGrid");
+    piece_ = grid.child("Piece");
+    if (!piece_) fail("has no piece of a mesh");
+    if (piece_.next_sibling("Piece")) fail("is in several pieces, which cannot be read: merge them first");
+}
+
+void VtuFile::parse() {
+    const std::string_view text = file_.text();
+    const std::size_t appended = text.find("<AppendedData");
+    std::string head(text.substr(0, appended));
+    if (appended != std::string_view::npos) {
+        find_appended(appended);
+        head += "</VTKFile>";
+    }
+    const auto result = document_.load_buffer(head.data(), head.size());
+    if (!result)
+        file_.fail_at_byte(text.data() + result.offset, fmt::format("is no XML: {}", result.description()));
+}
+
+void VtuFile::find_appended(std::size_t tag) {
+    const std::string_view text = file_.text();
+    const std::size_t end_of_tag = text.find('>', tag);
+    const std::size_t begin = text.find('_', end_of_tag);
+    if (end_of_tag == std::string_view::npos || begin == std::string_view::npos)
+        fail("ends within its appended data");
+    is_appended_base64_ = text.substr(tag, end_of_tag - tag).find("base64") != std::string_view::npos;
+    appended_ = text.substr(begin + 1);
+}
+
+std::size_t VtuFile::count(const char* attribute) const {
+    const std::string_view text = piece_.attribute(attribute).value();
+    std::size_t n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc{} || end != text.data() + text.size())
+        fail(fmt::format("{} is not a number", attribute));
+    return n;
+}
+
+std::string VtuFile::encoded_bytes(pugi::xml_node node) const {
+    if (std::string_view(node.attribute("format").value()) != "appended") {
+        std::string_view text = node.child_value();
+        text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+        return vtk::decoded(text, true, encoding_);
+    }
+    const auto offset = node.attribute("offset").as_ullong(appended_.size());
+    if (offset >= appended_.size()) throw InputError("its offset is beyond the appended data");
+    return vtk::decoded(appended_.substr(offset), is_appended_base64_, encoding_);
+}
+
+VtuFile::Array VtuFile::array(pugi::xml_node node) const {
+    Array array{{node.attribute("type").value(), false, {}}, 1};
+    array.n_components = std::max(1U, node.attribute("NumberOfComponents").as_uint(1));
+    array.numbers.is_text = std::string_view(node.attribute("format").as_string("ascii")) == "ascii";
+    array.numbers.bytes = array.numbers.is_text ? node.child_value() : encoded_bytes(node);
+    return array;
+}
+
+/// Reads the mesh out of the file.
+class VtuReader {
+  public:
+    explicit VtuReader(const Path& path)
+        : file_(path), n_points_(file_.count("NumberOfPoints")), n_cells_(file_.count("NumberOfCells")) {}
+
+    MeshDraft read() {
+        read_points();
+        read_cells();
+        for (pugi::xml_node array : file_.piece().child("PointData").children("DataArray"))
+            read_point_data(array);
+        for (pugi::xml_node array : file_.piece().child("CellData").children("DataArray"))
+            read_cell_data(array);
+        return std::move(draft_);
+    }
+
+  private:
+    /// Calls the action on the array, and names the array in what goes wrong.
+    template <class Action>
+    void with_array(pugi::xml_node node, const Action& action) {
+        try {
+            action(file_.array(node));
+        } catch (const InputError& error) {
+            file_.fail(fmt::format("array '{}': {}", node.attribute("Name").value(), error.what()));
+        }
+    }
+
+    std::vector<std::int64_t> integers(const char* name, std::size_t n);
+    void read_points();
+    void read_cells();
+    void add_cell(std::int64_t type, std::span<const std::int64_t> vertices);
+    void read_point_data(pugi::xml_node node);
+    void read_cell_data(pugi::xml_node node);
+    bool read_set(pugi::xml_node node, const VtuFile::Array& array);
+    void add_members(const std::string& name, EntityKind kind, const std::vector<Index>& members);
+    void read_groups(const std::vector<std::int64_t>& groups);
+    void add_field(const std::string& name, EntityKind kind, const VtuFile::Array& array,
+                   std::vector<double> values);
+
+    VtuFile file_;
+    std::size_t n_points_, n_cells_;
+    MeshDraft draft_;
+    /// By cell of the file: its kind, and its number in the draft's list of that kind.
+    std::vector<std::pair<EntityKind, Index>> places_;
+};
+
+std::vector<std::int64_t> VtuReader::integers(const char* name, std::size_t n) {
+    const auto node = file_.piece().child("Cells").find_child_by_attribute("DataArray", "Name", name);
+    if (!node) file_.fail(fmt::format("has no array '{}'", name));
+    std::vector<std::int64_t> values;
+    with_array(node, [&](const VtuFile::Array& array) { values = array.numbers.as_integers(); });
+    if (values.size() < n)
+        file_.fail(fmt::format("array '{}' has {} values instead of {}", name, values.size(), n));
+    return values;
+}
+
+void VtuReader::read_points() {
+    const auto node = file_.piece().child("Points").child("DataArray");
+    if (!node) file_.fail("has no points");
+    with_array(node, [&](const VtuFile::Array& array) {
+        const std::vector<double> values = array.numbers.as_reals();
+        if (array.n_components != 3 || values.size() != 3 * n_points_ || values.size() / 3 != n_points_)
+            throw InputError(fmt::format("{} coordinates for {} points", values.size(), n_points_));
+        if (!std::ranges::all_of(values, [](double x) { return std::isfinite(x); }))
+            throw InputError("a coordinate is not a finite number");
+        for (std::size_t i = 0; i < values.size(); i += 3)
+            draft_.points.emplace_back(values[i], values[i + 1], values[i + 2]);
+    });
+}
+
+void VtuReader::read_cells() {
+    if (n_cells_ == 0) return;
+    const auto connectivity = integers("connectivity", 0);
+    const auto offsets = integers("offsets", n_cells_);
+    const auto types = integers("types", n_cells_);
+    places_.reserve(n_cells_);
+    std::int64_t begin = 0;
+    for (std::size_t i = 0; i < n_cells_; ++i) {
+        if (offsets[i] < begin || offsets[i] > static_cast<std::int64_t>(connectivity.size()))
+            file_.fail(fmt::format("the offset of cell {} is out of range", i));
+        add_cell(types[i], std::span(connectivity).subspan(begin, offsets[i] - begin));
+        begin = offsets[i];
+    }
+}
+
+/// What a type of cell is called, for messages.
+const char* name_of_type(std::int64_t type) {
+    switch (type) {
+        case 4:
+            return "polyline";
+        case 7:
+            return "polygon";
+        case 9:
+            return "quadrangle";
+        case 11:
+            return "voxel";
+        case 12:
+            return "hexahedron";
+        case 13:
+            return "wedge";
+        case 14:
+            return "pyramid";
+        case 21:
+            return "quadratic line";
+        case 22:
+            return "quadratic triangle";
+        case 24:
+            return "quadratic tetrahedron";
+        case 25:
+            return "quadratic hexahedron";
+        case 42:
+            return "polyhedron";
+        case 71:
+            return "Lagrange tetrahedron";
+        default:
+            return "unknown";
+    }
+}
+
+void VtuReader::add_cell(std::int64_t type, std::span<const std::int64_t> vertices) {
+    const int n = 0 <= type && type <= 255 ? vtk::n_vertices(static_cast<std::uint8_t>(type)) : 0;
+    if (n == 0)
+        file_.fail(fmt::format(
+            "cell {} is of type {} (VTK's number {}), which cannot be read: only linear tetrahedra and "
+            "their triangles, lines and vertices can",
+            places_.size(), name_of_type(type), type));
+    if (vertices.size() != static_cast<std::size_t>(n))
+        file_.fail(fmt::format("cell {} has {} vertices instead of {}", places_.size(), vertices.size(), n));
+    std::array<Index, 4> v{};
+    for (int k = 0; k < n; ++k) {
+        if (vertices[k] < 0 || vertices[k] >= static_cast<std::int64_t>(n_points_))
+            file_.fail(fmt::format("cell {} has vertex {}, but there are {} vertices", places_.size(),
+                                   vertices[k], n_points_));
+        v[k] = static_cast<Index>(vertices[k]);
+    }
+    const auto place = [&](EntityKind kind, std::size_t i) {
+        places_.emplace_back(kind, static_cast<Index>(i));
+    };
+    switch (n) {
+        case 1:
+            place(EntityKind::vertex, v[0]);
+            break;
+        case 2:
+            place(EntityKind::edge, draft_.edges.size());
+            draft_.edges.push_back({v[0], v[1]});
+            break;
+        case 3:
+            place(EntityKind::face, draft_.faces.size());
+            draft_.faces.push_back({v[0], v[1], v[2]});
+            break;
+        default:
+            place(EntityKind::cell, draft_.cells.size());
+            draft_.cells.push_back(v);
+    }
+}
+
+void VtuReader::add_field(const std::string& name, EntityKind kind, const VtuFile::Array& array,
+                          std::vector<double> values) {
+    FieldType type = FieldType::real64;
+    if (array.numbers.type == "Float32") type = FieldType::real32;
+    if (!array.numbers.is_real()) type = smallest_integer_type(values);
+    append_field(draft_.fields, name, kind, type, array.n_components, std::move(values));
+}
+
+void VtuReader::read_point_data(pugi::xml_node node) {
+    with_array(node, [&](const VtuFile::Array& array) {
+        std::vector<double> values = array.numbers.as_reals();
+        if (values.size() != n_points_ * array.n_components)
+            throw InputError(fmt::format("{} values for {} points", values.size(), n_points_));
+        add_field(node.attribute("Name").value(), EntityKind::vertex, array, std::move(values));
+    });
+}
+
+void VtuReader::read_cell_data(pugi::xml_node node) {
+    const std::string name = node.attribute("Name").value();
+    if (name == "vtkGhostType") return;
+    with_array(node, [&](const VtuFile::Array& array) {
+        if (array.n_components == 1 && read_set(node, array)) return;
+        const std::vector<double> all = array.numbers.as_reals();
+        const std::size_t n = array.n_components;
+        if (all.size() != n_cells_ * n)
+            throw InputError(fmt::format("{} values for {} cells", all.size(), n_cells_));
+        std::vector<double> values;
+        for (std::size_t i = 0; i < n_cells_; ++i)
+            if (places_[i].first == EntityKind::cell)
+                values.insert(values.end(), &all[i * n], &all[i * n] + n);
+        add_field(name, EntityKind::cell, array, std::move(values));
+    });
+}
+
+/// Whether the array tells sets: ours by its attribute, others' if it has only 0 and 1 in bytes; or meshio's
+/// groups.
+bool VtuReader::read_set(pugi::xml_node node, const VtuFile::Array& array) {
+    const std::string name = node.attribute("Name").value();
+    const auto kinds = node.attribute("kinds");
+    const bool is_of_groups = name == "gmsh:physical";
+    if (!kinds && !is_of_groups && array.numbers.type != "UInt8" && array.numbers.type != "Int8")
+        return false;
+    const std::vector<std::int64_t> flags = array.numbers.as_integers();
+    if (flags.size() != n_cells_)
+        throw InputError(fmt::format("{} values for {} cells", flags.size(), n_cells_));
+    if (is_of_groups && !kinds) {
+        read_groups(flags);
+        return true;
+    }
+    if (!kinds && !std::ranges::all_of(flags, [](std::int64_t flag) { return flag == 0 || flag == 1; }))
+        return false;
+
+    if (!kinds && std::ranges::count(flags, 0) == static_cast<std::ptrdiff_t>(n_cells_))
+        draft_.set(name, EntityKind::cell);
+    std::istringstream words(kinds.as_string(""));
+    for (std::string word; words >> word;) {
+        const auto kind = std::ranges::find(vtk::kind_names, word);
+        if (kind == vtk::kind_names.end())
+            throw InputError(fmt::format("there is no kind of set '{}'", word));
+        draft_.set(name, static_cast<EntityKind>(kind - vtk::kind_names.begin()));
+    }
+    std::array<std::vector<Index>, 4> members;
+    for (std::size_t i = 0; i < n_cells_; ++i)
+        if (flags[i] != 0) members[static_cast<std::size_t>(places_[i].first)].push_back(places_[i].second);
+    for (std::size_t kind = 0; kind < 4; ++kind)
+        add_members(name, static_cast<EntityKind>(kind), members[kind]);
+    return true;
+}
+
+void VtuReader::read_groups(const std::vector<std::int64_t>& groups) {
+    std::map<std::pair<EntityKind, std::int64_t>, std::vector<Index>> members;
+    for (std::size_t i = 0; i < n_cells_; ++i)
+        if (groups[i] != 0) members[{places_[i].first, groups[i]}].push_back(places_[i].second);
+    for (const auto& [group, of_group] : members)
+        add_members(group_name(group.second), group.first, of_group);
+}
+
+void VtuReader::add_members(const std::string& name, EntityKind kind, const std::vector<Index>& members) {
+    if (members.empty()) return;
+    auto& of_set = draft_.set(name, kind).members;
+    of_set.insert(of_set.end(), members.begin(), members.end());
+}
+
+}  // namespace
+
+TetMesh read_vtu(const Path& path) {
+    return assemble(VtuReader(path).read(), path);
+}
+
+}  // namespace maille::volmesh::io
