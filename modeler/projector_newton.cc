@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -129,8 +130,9 @@ std::optional<Point> nearest_common_point(std::span<const ShapeFace> faces, cons
         const Point step = newton_step(most_independent(contacts), x, p, size / 4);
         x += step;
         if (!x.allFinite() || (x - p).norm() > size) return std::nullopt;
-        last_step = step.norm();
-        if (last_step <= rounding) break;
+        const double previous = std::exchange(last_step, step.norm());
+        const bool stagnates = last_step <= 1e-13 * size && last_step > previous / 2;
+        if (last_step <= rounding || stagnates) break;
     }
     x = snap_to_planes(faces, x);
     if (last_step > 1e-9 * size || farthest(faces, x) > std::max(1e-12 * size, rounding)) return std::nullopt;

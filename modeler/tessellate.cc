@@ -16,14 +16,28 @@ using volmesh::TriMesh;
 using SurfaceProperty = OpenMesh::FPropHandleT<std::uint32_t>;
 constexpr const char* surface_property = "surface";
 
-/// Area in triangles of the wanted size, roughly: the bounding box's area is no less than half the solid's.
-void check_count(const Shape& shape, const TessellateOptions& options) {
+/// Calls the function with the shape as what it is.
+template <class Function>
+void visit(const Shape& shape, const Function& function) {
+    if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(&shape))
+        function(*ellipsoid);
+    else if (const auto* torus = dynamic_cast<const Torus*>(&shape))
+        function(*torus);
+    else if (const auto* cone = dynamic_cast<const Cone*>(&shape))
+        function(*cone);
+    else if (const auto* polyhedron = dynamic_cast<const Polyhedron*>(&shape))
+        function(*polyhedron);
+    else
+        throw std::logic_error("a shape of a kind that cannot be tessellated");
+}
+
+/// Area in triangles of the wanted size, roughly: the bounding box's is no less than half the solid's.
+void check_count(const Shape& shape, const Sizing& sizing) {
     constexpr double most = 5e7;
     const Eigen::Vector3d d = shape.bounding_box().sizes();
-    double length = options.size;
-    if (options.chord_tolerance > 0)
-        for (std::uint32_t face = 0; face < shape.faces().size(); ++face)
-            length = std::min(length, Sizing(shape, options).for_curvature(shape.max_curvature(face)));
+    double length = sizing.size();
+    for (std::uint32_t face = 0; face < shape.faces().size(); ++face)
+        length = std::min(length, sizing.for_curvature(shape.max_curvature(face)));
     const double area = 2 * (d.x() * d.y() + d.y() * d.z() + d.z() * d.x());
     const double triangles = area / (length * length * std::sqrt(3) / 4);
     if (!(triangles < most))
@@ -31,16 +45,6 @@ void check_count(const Shape& shape, const TessellateOptions& options) {
             fmt::format("edges of {:.3g} make some {:.2g} triangles of the surface; the most is {:.2g}: "
                         "give a larger size",
                         length, triangles, most));
-}
-
-SurfaceSeed seed_any(const Shape& shape, const Sizing& sizing) {
-    if (const auto* ellipsoid = dynamic_cast<const Ellipsoid*>(&shape))
-        return seed_surface(*ellipsoid, sizing);
-    if (const auto* torus = dynamic_cast<const Torus*>(&shape)) return seed_surface(*torus, sizing);
-    if (const auto* cone = dynamic_cast<const Cone*>(&shape)) return seed_surface(*cone, sizing);
-    if (const auto* polyhedron = dynamic_cast<const Polyhedron*>(&shape))
-        return seed_surface(*polyhedron, sizing);
-    throw std::logic_error("a shape of a kind that cannot be tessellated");
 }
 
 TriMesh to_mesh(const SurfaceSeed& seed) {
@@ -70,12 +74,14 @@ TriMesh tessellate(const Primitive& primitive, const TessellateOptions& options)
     if (!(options.chord_tolerance >= 0))
         throw InputError(
             fmt::format("the chord tolerance is {}; it must not be negative", options.chord_tolerance));
-    const Shape& shape = *primitive.shape;
-    check_count(shape, options);
-    const Sizing sizing(shape, options);
-    const SurfaceSeed seed = seed_any(shape, sizing);
-    TriMesh mesh = to_mesh(seed);
-    improve(mesh, shape, sizing, seed.corners);
+    TriMesh mesh;
+    visit(*primitive.shape, [&](const auto& shape) {
+        const Sizing sizing(shape, options, thinnest_radius(shape));
+        check_count(shape, sizing);
+        const SurfaceSeed seed = seed_surface(shape, sizing);
+        mesh = to_mesh(seed);
+        improve(mesh, shape, sizing, seed.corners);
+    });
     return mesh;
 }
 

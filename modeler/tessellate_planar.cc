@@ -108,33 +108,91 @@ void fill_planar_face(SurfaceSeed& seed, const Plane& plane, const Loops& loops,
         seed.add_triangle({vertices[a], vertices[b], vertices[c]}, surface);
 }
 
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the lower number first
+
+Edge edge_of(const std::vector<std::uint32_t>& loop, std::size_t k) {
+    return std::minmax({loop[k], loop[(k + 1) % loop.size()]});
+}
+
+/// Where the edges of a polyhedron are cut: places from the end of lower number, by the size and by how near
+/// other edges of the same face run.
+class EdgeCuts {
+  public:
+    EdgeCuts(const Polyhedron& shape, double size) : shape_(shape), size_(size) {
+        for (std::uint32_t face = 0; face < shape.faces().size(); ++face) {
+            std::vector<Edge> edges;
+            for (const auto& loop : shape.polygon(face).loops)
+                for (std::size_t k = 0; k < loop.size(); ++k) edges.push_back(edge_of(loop, k));
+            for (const Edge& edge : edges) limit(edge, edges);
+        }
+    }
+
+    std::vector<double> places(const Edge& edge) const {
+        return graded_places(wanted_.at(edge), length(edge));
+    }
+
+  private:
+    static constexpr int parts = 32;
+
+    double length(const Edge& edge) const {
+        return (shape_.points()[edge.second] - shape_.points()[edge.first]).norm();
+    }
+
+    void limit(const Edge& edge, const std::vector<Edge>& others) {
+        // Finer than that the mesh does not get where it is thin.
+        const double least = size_ / 8;
+        std::vector<double>& wanted = wanted_.try_emplace(edge, parts, size_).first->second;
+        const Point from = shape_.points()[edge.first], to = shape_.points()[edge.second];
+        for (const auto& [c, d] : others) {
+            if (c == edge.first || c == edge.second || d == edge.first || d == edge.second) continue;
+            const Point start = shape_.points()[c], way = shape_.points()[d] - start;
+            for (int i = 0; i < parts; ++i) {
+                const Point p = from + (i + 0.5) / parts * (to - from);
+                const double t = std::clamp((p - start).dot(way) / way.squaredNorm(), 0.0, 1.0);
+                wanted[i] = std::min(wanted[i], std::max(least, (start + t * way - p).norm()));
+            }
+        }
+    }
+
+    const Polyhedron& shape_;
+    double size_;
+    std::map<Edge, std::vector<double>> wanted_;
+};
+
+}  // namespace
+
 SurfaceSeed seed_surface(const Polyhedron& shape, const Sizing& sizing) {
     SurfaceSeed seed;
     seed.points.assign(shape.points().begin(), shape.points().end());
     for (std::uint32_t i = 0; i < seed.points.size(); ++i) seed.corners.push_back(i);
 
-    // The first of the points within each edge, which runs from the end of lower number.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::uint32_t>> inner;
-    const auto divide = [&](std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>& loop) {
-        const auto [low, high] = std::minmax(a, b);
-        const auto [entry, is_new] =
-            inner.try_emplace({low, high}, static_cast<std::uint32_t>(seed.points.size()), 0u);
-        auto& [first, count] = entry->second;
+    const EdgeCuts cuts(shape, sizing.size());
+    std::map<Edge, std::vector<std::uint32_t>> chains;  // the points within each edge
+    const auto chain_of = [&](const Edge& edge) -> const std::vector<std::uint32_t>& {
+        const auto [entry, is_new] = chains.try_emplace(edge);
         if (is_new) {
-            const Point from = seed.points[low], to = seed.points[high];
-            const double pieces = std::max(1.0, std::round((to - from).norm() / sizing.size()));
-            count = static_cast<std::uint32_t>(pieces) - 1;
-            for (std::uint32_t k = 1; k <= count; ++k) seed.add_point(from + k / pieces * (to - from));
+            const Point from = seed.points[edge.first], to = seed.points[edge.second];
+            const std::vector<double> places = cuts.places(edge);
+            for (std::size_t k = 1; k + 1 < places.size(); ++k)
+                entry->second.push_back(seed.add_point(from + places[k] * (to - from)));
         }
-        loop.push_back(a);
-        for (std::uint32_t k = 0; k < count; ++k) loop.push_back(first + (a < b ? k : count - 1 - k));
+        return entry->second;
     };
     for (std::uint32_t face = 0; face < shape.faces().size(); ++face) {
         Loops loops;
         for (const auto& corners : shape.polygon(face).loops) {
-            loops.emplace_back();
-            for (std::size_t k = 0; k < corners.size(); ++k)
-                divide(corners[k], corners[(k + 1) % corners.size()], loops.back());
+            std::vector<std::uint32_t>& loop = loops.emplace_back();
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const Edge edge = edge_of(corners, k);
+                const auto& chain = chain_of(edge);
+                loop.push_back(corners[k]);
+                if (edge.first == corners[k])
+                    loop.insert(loop.end(), chain.begin(), chain.end());
+                else
+                    loop.insert(loop.end(), chain.rbegin(), chain.rend());
+            }
         }
         fill_planar_face(seed, shape.plane(face), loops, face, sizing.size());
     }

@@ -137,27 +137,12 @@ std::vector<double> row_heights(const Cone& cone, const Sizing& sizing) {
         const Eigen::Vector2d u = unit_circle(i, 8) * (cone.radius(1) - cone.radius(0));
         slant += (cone.map().linear() * Point(u.x(), u.y(), 1)).norm() / 8;
     }
-    std::vector<double> length(samples);
+    std::vector<double> wanted(samples);
     for (int i = 0; i < samples; ++i) {
         const Circumference row(cone, sizing, cone.radius((i + 0.5) / samples));
-        length[i] = std::max(row.length() / std::max(row.edges(), 6.0), sizing.smallest(0));
+        wanted[i] = row.length() / row.edges() * std::numbers::sqrt3 / 2;
     }
-    constexpr double growth = 0.5;  // of an edge's length per way along the slant
-    const double step = slant / samples;
-    for (int i = 1; i < samples; ++i) length[i] = std::min(length[i], length[i - 1] + growth * step);
-    for (int i = samples - 1; i-- > 0;) length[i] = std::min(length[i], length[i + 1] + growth * step);
-
-    std::vector<double> rows(samples + 1, 0);
-    for (int i = 0; i < samples; ++i) rows[i + 1] = rows[i] + step / (length[i] * std::numbers::sqrt3 / 2);
-    const int count = to_count(rows.back(), 1);
-    std::vector<double> heights;
-    for (int k = 0, i = 0; k < count; ++k) {
-        const double wanted = rows.back() * k / count;
-        while (rows[i + 1] <= wanted) ++i;
-        heights.push_back((i + (wanted - rows[i]) / (rows[i + 1] - rows[i])) / samples);
-    }
-    heights.push_back(1);
-    return heights;
+    return graded_places(wanted, slant);
 }
 
 }  // namespace

@@ -25,20 +25,34 @@ struct SurfaceSeed {
 /// The edge lengths that the options ask for.
 class Sizing {
   public:
-    Sizing(const Shape& shape, const TessellateOptions& options) : shape_(shape), options_(options) {}
+    /// No part of the shape is thinner than twice that radius, but for an edge or apex.
+    Sizing(const Shape& shape, const TessellateOptions& options, double thinnest_radius);
 
     double size() const { return options_.size; }
-    /// On a surface or curve of that curvature: an eighth of a circle at most.
+    /// On a surface or curve of that curvature: an eighth of a circle at most. Sharper bends than the
+    /// thinness of the shape explains (the rim of a flat ellipsoid, the apex of a cone) make the length no
+    /// smaller.
     double for_curvature(double curvature) const;
     /// At a point of a face.
     double at(std::uint32_t face, const Point& p) const;
-    /// No length on the face is smaller: the limit near the apex of a cone.
-    double smallest(std::uint32_t face) const { return for_curvature(shape_.max_curvature(face)) / 4; }
 
   private:
     const Shape& shape_;
     TessellateOptions options_;
+    double thinnest_radius_;
+    double max_curvature_;
 };
+
+/// Half the thickness of a shape where it is thinnest.
+double thinnest_radius(const Ellipsoid& shape);
+double thinnest_radius(const Torus& shape);
+double thinnest_radius(const Cone& shape);
+double thinnest_radius(const Polyhedron& shape);
+
+/// Places on a way of length 1, the first 0 and the last 1, at about the steps wanted along it: `wanted`
+/// holds them at the middles of equal parts, in the same unit as `way`. Steps change gradually, and are
+/// smaller where any of the wanted ones says so.
+std::vector<double> graded_places(std::vector<double> wanted, double way);
 
 SurfaceSeed seed_surface(const Ellipsoid& shape, const Sizing& sizing);
 SurfaceSeed seed_surface(const Torus& shape, const Sizing& sizing);
