@@ -1,7 +1,9 @@
 #include "modeler/tessellate_improve.hh"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "modeler/shape_frame.hh"
@@ -20,6 +22,8 @@ constexpr double too_long = 4.0 / 3, too_short = 4.0 / 5;
 /// A surface of which all edges are within these limits, and all angles large enough, is left alone.
 constexpr double good_longest = 1.5, good_shortest = 0.6;
 const double good_angle = std::cos(38 * std::numbers::pi / 180);
+/// Triangles turn no further away from the surface, unless they were worse before.
+constexpr double least_alignment = 0.3;
 /// How fast the wanted length grows along the surface, away from where it is short.
 constexpr double growth = 0.4;
 
@@ -37,10 +41,14 @@ class Improver {
     void run();
 
   private:
-    /// What a vertex's triangles would look like elsewhere.
-    struct Star {
-        double sharpest = 0;
-        bool folded = false;
+    /// The worst of a few triangles.
+    struct Worst {
+        double sharpness = 0;
+        double alignment = 1;  ///< of a triangle's normal with the surface's at its corners: their cosine
+
+        bool is_better_than(const Worst& now, double allowed_sharpness) const {
+            return sharpness <= allowed_sharpness && alignment >= std::min(least_alignment, now.alignment);
+        }
     };
 
     std::uint32_t surface(Face f) const { return mesh_.property(surface_, f); }
@@ -56,23 +64,35 @@ class Improver {
 
     void find_fixed(std::span<const std::uint32_t> corners);
     void find_wanted();
+    void find_normals();
     bool find_active();
     std::size_t split_long_edges();
+    bool split(Edge e);
     std::size_t collapse_short_edges();
     bool collapse(Edge e);
     std::size_t flip_edges();
     void smooth();
     void open_sharp_angles();
-    Star star_at(Vertex v, const Point& p, Vertex without = Vertex()) const;
-    bool move(Vertex v, const Point& p, double allowed);
+    struct Corner {
+        Point at, normal;
+    };
+    Corner corner(Vertex v) const { return {at(v), normals_[v.idx()]}; }
+    Vertex opposite(Halfedge h) const { return mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)); }
+    static Worst worst_of(std::initializer_list<std::array<Corner, 3>> triangles);
+    static Worst worse(const Worst& a, const Worst& b);
+    Point normal_at(Vertex v, const Point& p) const;
+    Worst star_at(Vertex v, const Point& p, Vertex without = Vertex()) const;
+    void move(Vertex v, const Point& p);
 
     Mesh& mesh_;
     const Shape& shape_;
     const Sizing& sizing_;
     OpenMesh::FPropHandleT<std::uint32_t> surface_;
-    std::vector<bool> fixed_;     ///< by vertex
-    std::vector<double> wanted_;  ///< length of edge, by vertex
-    std::vector<bool> active_;    ///< surfaces to work at
+    std::vector<bool> fixed_;      ///< by vertex
+    std::vector<bool> is_smooth_;  ///< by vertex: on no sharp curve or corner
+    std::vector<double> wanted_;   ///< length of edge, by vertex
+    std::vector<Point> normals_;   ///< of the surface, by vertex; 0 where that is not smooth
+    std::vector<bool> active_;     ///< surfaces to work at
 };
 
 Improver::Improver(Mesh& mesh, const Shape& shape, const Sizing& sizing,
@@ -85,6 +105,7 @@ Improver::Improver(Mesh& mesh, const Shape& shape, const Sizing& sizing,
     mesh_.request_halfedge_status();
     find_fixed(corners);
     find_wanted();
+    find_normals();
 }
 
 bool Improver::is_rim(Edge e) const {
@@ -110,6 +131,8 @@ void Improver::find_fixed(std::span<const std::uint32_t> corners) {
         if (!is_rim(e)) continue;
         for (int side : {0, 1}) fixed_[mesh_.to_vertex_handle(mesh_.halfedge_handle(e, side)).idx()] = true;
     }
+    is_smooth_ = fixed_;
+    is_smooth_.flip();
 }
 
 // Sharp curves set the length with their own edges; elsewhere the curvature does, and the way to the next
@@ -144,6 +167,15 @@ void Improver::find_wanted() {
     }
 }
 
+void Improver::find_normals() {
+    normals_.clear();
+    for (Vertex v : mesh_.vertices()) normals_.push_back(normal_at(v, at(v)));
+}
+
+Point Improver::normal_at(Vertex v, const Point& p) const {
+    return is_smooth_[v.idx()] ? shape_.face_normal(surface(v), p) : Point::Zero();
+}
+
 /// Finds the surfaces that are worth work; all vertices of the others are fixed.
 bool Improver::find_active() {
     active_.assign(active_.size(), false);
@@ -166,15 +198,30 @@ std::size_t Improver::split_long_edges() {
         if (is_active(e) && mesh_.calc_edge_length(e) > too_long * wanted(e))
             long_edges.emplace_back(-mesh_.calc_edge_length(e) / wanted(e), e.idx());
     std::ranges::sort(long_edges);
-    for (const auto& [length, index] : long_edges) {
-        const Edge e(index);
-        const std::uint32_t on = surface(mesh_.face_handle(mesh_.halfedge_handle(e, 0)));
-        const Point middle = shape_.project(on, mesh_.calc_edge_midpoint(e));
-        wanted_.push_back(wanted(e));
-        fixed_.push_back(false);
-        mesh_.split_copy(e, middle);
-    }
-    return long_edges.size();
+    std::size_t count = 0;
+    for (const auto& [length, index] : long_edges)
+        if (split(Edge(index))) ++count;
+    return count;
+}
+
+bool Improver::split(Edge e) {
+    const Halfedge h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
+    const std::uint32_t on = surface(mesh_.face_handle(h));
+    const Point middle = shape_.project(on, mesh_.calc_edge_midpoint(e));
+    const Point normal = shape_.face_normal(on, middle);
+    const Corner centre{middle, normal};
+    const Corner a = corner(mesh_.from_vertex_handle(h)), b = corner(mesh_.to_vertex_handle(h));
+    const Corner left = corner(opposite(h)), right = corner(opposite(o));
+    const Worst now = worst_of({{a, b, left}, {b, a, right}});
+    const Worst then =
+        worst_of({{a, centre, left}, {centre, b, left}, {b, centre, right}, {centre, a, right}});
+    if (then.alignment < std::min(least_alignment, now.alignment)) return false;
+    wanted_.push_back(wanted(e));
+    fixed_.push_back(false);
+    is_smooth_.push_back(true);
+    normals_.push_back(normal);
+    mesh_.split_copy(e, middle);
+    return true;
 }
 
 std::size_t Improver::collapse_short_edges() {
@@ -205,13 +252,11 @@ bool Improver::collapse(Edge e) {
                 return false;
         }
     }
-    const double now = std::max(star_at(gone, at(gone)).sharpest, star_at(stays, at(stays)).sharpest);
-    for (Vertex end : {gone, stays}) {
-        const Star star = star_at(end, target, end == gone ? stays : gone);
-        if (star.folded || star.sharpest > std::max(now, good_angle)) return false;
-    }
+    const Worst now = worse(star_at(gone, at(gone)), star_at(stays, at(stays)));
+    const Worst then = worse(star_at(gone, target, stays), star_at(stays, target, gone));
+    if (!then.is_better_than(now, std::max(now.sharpness, good_angle))) return false;
     mesh_.collapse(h);
-    mesh_.set_point(stays, target);
+    move(stays, target);
     return true;
 }
 
@@ -220,15 +265,15 @@ std::size_t Improver::flip_edges() {
     for (Edge e : mesh_.edges()) {
         if (mesh_.status(e).deleted() || !is_active(e) || !mesh_.is_flip_ok(e)) continue;
         const Halfedge h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
-        const Point a = at(o), b = at(h);
-        const Point left = at(mesh_.next_halfedge_handle(h)), right = at(mesh_.next_halfedge_handle(o));
-        const double now = std::max(sharpness(a, b, left), sharpness(b, a, right));
-        const double then = std::max(sharpness(left, right, b), sharpness(right, left, a));
-        if (then > now - 1e-9) continue;
-        const Point normal_1 = (right - left).cross(b - left), normal_2 = (left - right).cross(a - right);
-        const Point outward = (b - a).cross(left - a) + (a - b).cross(right - b);
-        if (normal_1.dot(outward) <= 0.3 * normal_1.norm() * outward.norm() ||
-            normal_2.dot(outward) <= 0.3 * normal_2.norm() * outward.norm())
+        const Corner a = corner(mesh_.from_vertex_handle(h)), b = corner(mesh_.to_vertex_handle(h));
+        const Corner left = corner(opposite(h)), right = corner(opposite(o));
+        const Worst now = worst_of({{a, b, left}, {b, a, right}});
+        const Worst then = worst_of({{left, right, b}, {right, left, a}});
+        if (!then.is_better_than(now, now.sharpness - 1e-9)) continue;
+        // Where no corner has a normal, the old triangles tell the surface's.
+        const Point outward = (b.at - a.at).cross(left.at - a.at) + (a.at - b.at).cross(right.at - b.at);
+        if ((right.at - left.at).cross(b.at - left.at).dot(outward) <= 0 ||
+            (left.at - right.at).cross(a.at - right.at).dot(outward) <= 0)
             continue;
         mesh_.flip(e);
         ++count;
@@ -237,27 +282,36 @@ std::size_t Improver::flip_edges() {
 }
 
 /// The triangles of v if it were at p; those that have `without` as well are left out.
-Improver::Star Improver::star_at(Vertex v, const Point& p, Vertex without) const {
-    Star star;
-    const bool is_rim_vertex = fixed_[v.idx()];
-    const Point normal = is_rim_vertex ? Point::Zero() : shape_.face_normal(surface(v), p);
+Improver::Worst Improver::star_at(Vertex v, const Point& p, Vertex without) const {
+    Worst worst;
+    const Corner centre{p, normal_at(v, p)};
     for (Halfedge h : mesh_.voh_range(v)) {
         const Vertex b = mesh_.to_vertex_handle(h), c = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h));
-        if (b == without || c == without) continue;
-        star.sharpest = std::max(star.sharpest, sharpness(p, at(b), at(c)));
-        const Point cross = (at(b) - p).cross(at(c) - p);
-        const Point before = (at(b) - at(v)).cross(at(c) - at(v));
-        const Point& reference = is_rim_vertex ? before : normal;
-        star.folded |= cross.dot(reference) <= 0.3 * cross.norm() * reference.norm();
+        if (b != without && c != without) worst = worse(worst, worst_of({{centre, corner(b), corner(c)}}));
     }
-    return star;
+    return worst;
 }
 
-bool Improver::move(Vertex v, const Point& p, double allowed) {
-    const Star star = star_at(v, p);
-    if (star.folded || star.sharpest > allowed) return false;
+Improver::Worst Improver::worst_of(std::initializer_list<std::array<Corner, 3>> triangles) {
+    Worst worst;
+    for (const auto& corners : triangles) {
+        const auto& [a, b, c] = corners;
+        worst.sharpness = std::max(worst.sharpness, sharpness(a.at, b.at, c.at));
+        const Point normal = (b.at - a.at).cross(c.at - a.at).normalized();
+        for (const Corner& corner : corners)
+            if (!corner.normal.isZero(0))
+                worst.alignment = std::min(worst.alignment, normal.dot(corner.normal));
+    }
+    return worst;
+}
+
+Improver::Worst Improver::worse(const Worst& a, const Worst& b) {
+    return {std::max(a.sharpness, b.sharpness), std::min(a.alignment, b.alignment)};
+}
+
+void Improver::move(Vertex v, const Point& p) {
     mesh_.set_point(v, p);
-    return true;
+    normals_[v.idx()] = normal_at(v, p);
 }
 
 // Towards the mean of the triangles' centres, weighted by area over the square of the wanted size.
@@ -277,10 +331,14 @@ void Improver::smooth() {
             weights += weight;
         }
         if (!(weights > 0)) continue;
-        const double allowed = std::max(star_at(v, at(v)).sharpest, good_angle);
+        const Worst now = star_at(v, at(v));
         const Point start = at(v);
-        for (double part : {1.0, 0.5, 0.25})
-            if (move(v, shape_.project(on, start + part * (sum / weights - start)), allowed)) break;
+        for (double part : {1.0, 0.5, 0.25}) {
+            const Point p = shape_.project(on, start + part * (sum / weights - start));
+            if (!star_at(v, p).is_better_than(now, std::max(now.sharpness, good_angle))) continue;
+            move(v, p);
+            break;
+        }
     }
 }
 
@@ -289,8 +347,8 @@ void Improver::open_sharp_angles() {
     constexpr int directions = 8;
     for (Vertex v : mesh_.vertices()) {
         if (mesh_.status(v).deleted() || fixed_[v.idx()]) continue;
-        double now = star_at(v, at(v)).sharpest;
-        if (now <= good_angle) continue;
+        Worst now = star_at(v, at(v));
+        if (now.sharpness <= good_angle) continue;
         const std::uint32_t on = surface(v);
         const Plane tangent(at(v), shape_.face_normal(on, at(v)));
         for (double step : {0.2, 0.1, 0.05, 0.02}) {
@@ -298,12 +356,12 @@ void Improver::open_sharp_angles() {
             for (int i = 0; i < directions; ++i) {
                 const Point p = shape_.project(
                     on, tangent.unflatten(step * wanted_[v.idx()] * unit_circle(i, directions)));
-                const Star star = star_at(v, p);
-                if (star.folded || star.sharpest >= now) continue;
-                now = star.sharpest;
+                const Worst then = star_at(v, p);
+                if (!then.is_better_than(now, now.sharpness - 1e-9)) continue;
+                now = then;
                 best = p;
             }
-            mesh_.set_point(v, best);
+            if (best != at(v)) move(v, best);
         }
     }
 }
@@ -321,7 +379,6 @@ void Improver::run() {
             flip_edges();
         }
         if (changes == 0) break;
-        mesh_.garbage_collection();
         find_wanted();
     }
     for (int i = 0; i < polishings; ++i) {

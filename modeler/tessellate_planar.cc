@@ -142,7 +142,7 @@ class EdgeCuts {
 
     void limit(const Edge& edge, const std::vector<Edge>& others) {
         // Finer than that the mesh does not get where it is thin.
-        const double least = size_ / 8;
+        const double least = std::min(size_, length(edge)) / 8;
         std::vector<double>& wanted = wanted_.try_emplace(edge, parts, size_).first->second;
         const Point from = shape_.points()[edge.first], to = shape_.points()[edge.second];
         for (const auto& [c, d] : others) {

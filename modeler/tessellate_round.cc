@@ -142,7 +142,7 @@ std::vector<double> row_heights(const Cone& cone, const Sizing& sizing) {
         const Circumference row(cone, sizing, cone.radius((i + 0.5) / samples));
         wanted[i] = row.length() / row.edges() * std::numbers::sqrt3 / 2;
     }
-    return graded_places(wanted, slant);
+    return graded_places(wanted, slant_of(cone));
 }
 
 }  // namespace
@@ -220,6 +220,7 @@ SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing) {
     const Circumference widest(shape, sizing, 1);
     const bool is_cylinder = shape.radius(0) == shape.radius(1);
     const bool mirrored = is_mirror(shape.map());
+    const double slant = slant_of(shape);
     const auto place = [&](const Eigen::Vector2d& xy, double z) {
         const double radius = shape.radius(z);
         return Point(shape.map() * Point(radius * xy.x(), radius * xy.y(), z));
@@ -234,7 +235,8 @@ SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing) {
         Row row{.first = static_cast<std::uint32_t>(seed.points.size()), .count = 1, .offset = 0};
         if (radius > 0) {
             const Circumference circumference(shape, sizing, radius);
-            row.count = is_cylinder || is_end ? rim_count(circumference) : to_count(circumference.edges(), 6);
+            row.count =
+                is_cylinder || is_end ? rim_count(circumference, slant) : to_count(circumference.edges(), 6);
             row.offset = static_cast<int>(k % 2);
             const auto cap = is_end ? shape.cap(k != 0) : std::nullopt;
             std::vector<std::uint32_t> loop;

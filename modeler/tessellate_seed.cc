@@ -31,7 +31,7 @@ Sizing::Sizing(const Shape& shape, const TessellateOptions& options, double thin
 
 double Sizing::for_curvature(double curvature) const {
     if (!(curvature > 0)) return options_.size;
-    const double eighth = std::numbers::pi / 4 / std::min(curvature, 2 / thinnest_radius_);
+    const double eighth = std::numbers::pi / 4 / std::min(curvature, 8 / thinnest_radius_);
     double length = std::min(options_.size, eighth);
     // The middle of an equilateral triangle of edge e is e^2 / 6R below a sphere of radius R.
     if (options_.chord_tolerance > 0)
@@ -62,7 +62,7 @@ double thinnest_radius(const Cone& shape) {
     const double half_trace = gram.trace() / 2;
     const double spread = std::hypot((gram(0, 0) - gram(1, 1)) / 2, gram(0, 1));
     const double least_stretch = std::sqrt(gram.determinant() / (half_trace + spread));
-    return least_stretch * (smaller > 0 ? smaller : 0.5);
+    return least_stretch * (smaller > 0 ? smaller : 2);
 }
 
 double thinnest_radius(const Polyhedron&) {
