@@ -124,19 +124,27 @@ class Circumference {
     std::array<double, samples + 1> length_, steps_;
 };
 
-/// Sharp curves have a multiple of four edges, for symmetry's sake.
-int rim_count(const Circumference& rim) {
-    return 4 * to_count(rim.edges() / 4, 2);
-}
-
-/// Heights of the rows, from 0 to 1: closer where the rows are shorter of edge.
-std::vector<double> row_heights(const Cone& cone, const Sizing& sizing) {
-    constexpr int samples = 256;
+/// Mean length of the generators.
+double slant_of(const Cone& cone) {
     double slant = 0;
     for (int i = 0; i < 8; ++i) {
         const Eigen::Vector2d u = unit_circle(i, 8) * (cone.radius(1) - cone.radius(0));
         slant += (cone.map().linear() * Point(u.x(), u.y(), 1)).norm() / 8;
     }
+    return slant;
+}
+
+/// Number of edges of a sharp curve: a multiple of four, for symmetry's sake; more of them around a thin
+/// disc.
+int rim_count(const Circumference& rim, double slant) {
+    const double least = rim.length() / std::max(8.0, rim.edges()) / 8;
+    const double edges = std::max(rim.edges(), rim.length() / std::max(slant, least));
+    return 4 * to_count(edges / 4, 2);
+}
+
+/// Heights of the rows, from 0 to 1: closer where the rows are shorter of edge.
+std::vector<double> row_heights(const Cone& cone, const Sizing& sizing) {
+    constexpr int samples = 256;
     std::vector<double> wanted(samples);
     for (int i = 0; i < samples; ++i) {
         const Circumference row(cone, sizing, cone.radius((i + 0.5) / samples));
@@ -151,7 +159,10 @@ SurfaceSeed seed_surface(const Ellipsoid& shape, const Sizing& sizing) {
     const Icosahedron icosahedron = make_icosahedron();
     const double radius = std::cbrt(shape.semi_axes().prod());
     constexpr double edge_angle = 1.1071487177940904;  // of the icosahedron: arctan 2
-    const int n = to_count(edge_angle * radius / sizing.for_curvature(1 / radius), 2);
+    // Fine enough for the sharpest bend too, so that no triangle of a flat one cuts through its rim.
+    const double flatness = std::min(shape.semi_axes()[0] / shape.semi_axes()[2], 50.0);
+    const double size = std::min(sizing.for_curvature(1 / radius), radius * std::numbers::pi / 4 / flatness);
+    const int n = to_count(edge_angle * radius / size, 2);
 
     SurfaceSeed seed;
     std::map<std::array<std::uint32_t, 2>, std::uint32_t> edge_points;
