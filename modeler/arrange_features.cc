@@ -92,13 +92,12 @@ class FeatureFinder {
         return result;
     }
 
-    std::vector<std::vector<std::uint32_t>> isolated() const {
+    std::vector<std::vector<std::uint32_t>> points() const {
         std::vector<std::vector<std::uint32_t>> result(subdivision_.clusters.size());
         for_each_kept_piece([&](const Piece& piece, std::uint32_t group) {
             if (!is_cut(group)) return;
             for (const auto v : piece.corners)
-                if (points_[v].is_fixed && points_[v].n_edges == 0)
-                    result[kept_.groups[group].cluster].push_back(v);
+                if (points_[v].is_fixed) result[kept_.groups[group].cluster].push_back(v);
         });
         for (auto& points : result) {
             std::ranges::sort(points);
@@ -165,7 +164,7 @@ Features::Features(const Subdivision& subdivision, const KeptSheets& kept, const
     finder.find_edges();
     finder.choose_points();
     outlines_ = finder.outlines();
-    isolated_ = finder.isolated();
+    points_ = finder.points();
 }
 
 }  // namespace maille::modeler::detail

@@ -39,12 +39,13 @@ class Features {
 
     /// By cluster.
     const std::vector<std::vector<OutlineEdge>>& outlines() const { return outlines_; }
-    /// Points of the primitives inside their groups, by cluster, rising.
-    const std::vector<std::vector<std::uint32_t>>& isolated() const { return isolated_; }
+    /// The points that the kept groups must have, by cluster, rising: also those that only touch a facet from
+    /// elsewhere.
+    const std::vector<std::vector<std::uint32_t>>& points() const { return points_; }
 
   private:
     std::vector<std::vector<OutlineEdge>> outlines_;
-    std::vector<std::vector<std::uint32_t>> isolated_;
+    std::vector<std::vector<std::uint32_t>> points_;
 };
 
 }  // namespace maille::modeler::detail

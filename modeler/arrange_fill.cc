@@ -97,12 +97,11 @@ class Filler {
 
 }  // namespace
 
-std::vector<FilledTriangle> fill(std::span<const OutlineEdge> outline,
-                                 std::span<const std::uint32_t> isolated, const Cluster& cluster,
-                                 const PointRegistry& registry) {
+std::vector<FilledTriangle> fill(std::span<const OutlineEdge> outline, std::span<const std::uint32_t> points,
+                                 const Cluster& cluster, const PointRegistry& registry) {
     Filler filler(cluster, registry);
     for (const OutlineEdge& edge : outline) filler.insert(edge);
-    for (const auto point : isolated) filler.vertex(point);
+    for (const auto point : points) filler.vertex(point);
     return filler.triangles();
 }
 

@@ -115,7 +115,7 @@ Arrangement simplify(const Subdivision& subdivision, const std::vector<Sides>& s
         const Cluster& cluster = subdivision.clusters[c];
         const auto unchanged = facets_by_corners(cluster, scene);
         for (const auto& [corners, group] :
-             fill(features.outlines()[c], features.isolated()[c], cluster, registry)) {
+             fill(features.outlines()[c], features.points()[c], cluster, registry)) {
             auto sorted = corners;
             std::ranges::sort(sorted);
             const auto at = unchanged.find(sorted);
