@@ -23,7 +23,7 @@ class Corners {
     }
     /// The lower one stands for both.
     void join(std::size_t i, std::size_t j) {
-        const auto [low, high] = std::minmax(find(i), find(j));
+        const auto [low, high] = std::minmax({find(i), find(j)});
         parent_[high] = low;
     }
 
@@ -68,6 +68,15 @@ Corners joined_corners(const TetMesh& mesh, const std::vector<HalffaceHandle>& f
     return corners;
 }
 
+/// Whether none of the face's edges has a face on that side yet.
+bool has_room(const TriMesh& surface, const std::array<TriMesh::VertexHandle, 3>& face) {
+    for (int i = 0; i < 3; ++i) {
+        const auto edge = surface.find_halfedge(face[i], face[(i + 1) % 3]);
+        if (edge.is_valid() && !surface.is_boundary(edge)) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 BoundarySurface boundary(const TetMesh& mesh) {
@@ -90,6 +99,8 @@ BoundarySurface boundary(const TetMesh& mesh) {
             if (!vertex.is_valid()) vertex = add_vertex(vertices[i]);
             face[i] = vertex;
         }
+        if (!has_room(result.surface, face))
+            for (int i = 0; i < 3; ++i) face[i] = add_vertex(vertices[i]);
         result.surface.add_face(face[0], face[1], face[2]);
     }
     return result;

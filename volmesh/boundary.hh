@@ -20,6 +20,8 @@ struct BoundarySurface {
 ///
 /// The surface is manifold. Where the boundary is not, at an edge or vertex in which cells merely touch, the
 /// sheets that touch have vertices of their own, each sheet being the one that bounds the same fan of cells.
+/// A sheet that comes to an edge twice, which OpenMesh cannot hold, is cut open there: faces at the cut have
+/// vertices of their own.
 BoundarySurface boundary(const TetMesh& mesh);
 
 }  // namespace maille::volmesh

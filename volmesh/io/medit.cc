@@ -67,7 +67,7 @@ bool MeditReader::has_read(std::string_view keyword) {
     } else {
         for (const char* other : {"Quadrilaterals", "Hexahedra", "Hexaedra", "Prisms", "Pyramids", "EdgesP",
                                   "TrianglesP", "TetrahedraP"})
-            if (keyword.starts_with(other) && text_.count("a number of elements") > 0)
+            if (keyword.starts_with(other) && text_.integer<std::size_t>("a number of elements") > 0)
                 text_.fail(fmt::format("{} cannot be read: only linear tetrahedra, triangles and edges can",
                                        keyword));
         return false;

@@ -1,0 +1,160 @@
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include "tests/support/kuhn.hh"
+#include "tests/support/random_sets.hh"
+#include "volmesh/error.hh"
+#include "volmesh/io/mesh_io.hh"
+
+using namespace maille;
+using namespace maille::volmesh;
+
+namespace {
+
+using Path = std::filesystem::path;
+
+std::string bytes_of(const Path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void put(const Path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// Whatever the file holds, it is a mesh or an InputError that names it.
+void require_mesh_or_error(const Path& path) {
+    try {
+        read_mesh(path);
+    } catch (const InputError& error) {
+        REQUIRE(std::string(error.what()).find(path.stem().string()) != std::string::npos);
+    }
+}
+
+struct Way {
+    std::string read;     ///< what is read
+    std::string damaged;  ///< what is damaged
+    std::string format;
+};
+
+const std::vector<Way>& ways() {
+    static const std::vector<Way> all{
+        {"a.vtu", "a.vtu", ""},   {"b.msh", "b.msh", ""},        {"c.msh", "c.msh", "msh22"},
+        {"d.mesh", "d.mesh", ""}, {"d.mesh", "d.sets.json", ""}, {"e.node", "e.node", ""},
+        {"e.node", "e.ele", ""},  {"e.node", "e.face", ""},      {"e.node", "e.edge", ""}};
+    return all;
+}
+
+TetMesh small_mesh() {
+    std::mt19937 random(5);
+    TetMesh mesh = test::kuhn_cube(1);
+    test::add_random_sets(mesh, random);
+    CPropHandleT<double> property;
+    mesh.add_property(property, "density");
+    return mesh;
+}
+
+void require_error(const Path& path, const std::string& bytes, const std::string& message) {
+    put(path, bytes);
+    std::string got;
+    try {
+        read_mesh(path);
+    } catch (const InputError& error) {
+        got = error.what();
+    }
+    CAPTURE(got);
+    CHECK(got.find(message) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("files cut short are read or refused") {
+    const test::TemporaryFolder folder;
+    for (const Way& way : ways()) {
+        CAPTURE(way.damaged);
+        write_mesh(small_mesh(), folder / way.read, {way.format});
+        const std::string bytes = bytes_of(folder / way.damaged);
+        const std::size_t step = std::max<std::size_t>(1, bytes.size() / 400);
+        for (std::size_t n = 0; n < bytes.size(); n += step) {
+            CAPTURE(n);
+            put(folder / way.damaged, bytes.substr(0, n));
+            require_mesh_or_error(folder / way.read);
+        }
+    }
+}
+
+TEST_CASE("files with damaged bytes are read or refused") {
+    const test::TemporaryFolder folder;
+    for (const Way& way : ways()) {
+        CAPTURE(way.damaged);
+        write_mesh(small_mesh(), folder / way.read, {way.format});
+        const std::string bytes = bytes_of(folder / way.damaged);
+        for (unsigned seed = 0; seed < 400; ++seed) {
+            CAPTURE(seed);
+            std::mt19937 random(seed);
+            std::string damaged = bytes;
+            const unsigned n_changes = 1 + seed % 4;
+            for (unsigned i = 0; i < n_changes; ++i)
+                damaged[random() % damaged.size()] = static_cast<char>(random());
+            put(folder / way.damaged, damaged);
+            require_mesh_or_error(folder / way.read);
+        }
+    }
+}
+
+TEST_CASE("damaged numbers in text are read or refused") {
+    const test::TemporaryFolder folder;
+    const std::string words[] = {
+        "-1", "nan", "1e999", "99999999999999999999", "4294967295", "18446744073709551615", "x", ""};
+    for (const Way& way : ways()) {
+        if (way.damaged == "a.vtu" || way.damaged == "b.msh") continue;
+        CAPTURE(way.damaged);
+        write_mesh(small_mesh(), folder / way.read, {way.format});
+        const std::string bytes = bytes_of(folder / way.damaged);
+        for (unsigned seed = 0; seed < 400; ++seed) {
+            CAPTURE(seed);
+            std::mt19937 random(seed);
+            std::size_t begin = bytes.find_first_of("0123456789", random() % bytes.size());
+            if (begin == std::string::npos) continue;
+            const std::size_t end = std::min(bytes.find_first_not_of("0123456789.-e", begin), bytes.size());
+            put(folder / way.damaged,
+                bytes.substr(0, begin) + words[random() % std::size(words)] + bytes.substr(end));
+            require_mesh_or_error(folder / way.read);
+        }
+    }
+}
+
+TEST_CASE("what is wrong is named with its place") {
+    const test::TemporaryFolder folder;
+    const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
+    const Path msh = folder / "a.msh";
+    require_error(msh, head + "$Nodes\n1000000000000\n1 0 0 0\n$EndNodes\n",
+                  "a.msh:5: the number of nodes is said to be");
+    require_error(msh, head + "$Nodes\n1\n1 0 nan 0\n$EndNodes\n",
+                  "a.msh:6: a coordinate is not a finite number");
+    require_error(msh, head + "$Nodes\n1\n1 0 zero 0\n$EndNodes\n",
+                  "'zero' stands where a coordinate should be");
+    require_error(msh, head + "$Nodes\n2\n1 0 0 0\n1 0 0 0\n$EndNodes\n", "node 1 is there twice");
+    require_error(msh, head + nodes + "$Elements\n1\n1 4 2 0 1 1 2 3 9\n$EndElements\n",
+                  "element 1 has node 9");
+    require_error(msh, head + nodes + "$Elements\n1\n1 5 2 0 1 1 2 3 4 1 2 3 4\n$EndElements\n",
+                  "hexahedron");
+    require_error(msh, head + nodes + "$Elements\n1\n1 11 2 0 1 1 2 3 4 1 2 3 4 1 2\n$EndElements\n",
+                  "second-order tetrahedron");
+    require_error(msh, head + nodes + "$Elements\n1\n1 2 2 7 1 1 2 3\n$EndElements\n",
+                  "group 'group7' has the triangle of vertices 0, 1, 2 (from 0), which is no face");
+    require_error(msh, "$MeshFormat\n4 0 8\n$EndMeshFormat\n", "version 4 ");
+    const Path mesh = folder / "a.mesh";
+    const std::string medit = "MeshVersionFormatted 2\nDimension 3\n";
+    require_error(mesh, medit + "Vertices\n1\n0 0 0 0\nTetrahedra\n1\n1 1 1 2 0\nEnd\n",
+                  "a.mesh:8: an element has a vertex");
+    require_error(mesh, medit + "Hexahedra\n1\n", "Hexahedra cannot be read");
+    put(folder / "a.ele", "0 10 0\n");
+    require_error(folder / "a.node", "0 3 0 0\n", "quadratic tetrahedra");
+    require_error(folder / "a.vtu", "<VTKFile type=\"PolyData\"/>", "is not an unstructured grid");
+    require_error(folder / "a.vtu", "<VTKFile type=", "byte");
+}
