@@ -50,6 +50,7 @@ class Bisector {
     /// Splits any edge of a cell, with all cells round it; false where rounding would invert a child.
     bool split(CellHandle c, int local_edge);
 
+    bool is_born(CellHandle c) const { return (state_[c.idx()] & born_bit) != 0; }
     int longest(CellHandle c) const { return state_[c.idx()] & edge_mask; }
     double longest_squared(CellHandle c) const;
 
@@ -59,7 +60,6 @@ class Bisector {
   private:
     static constexpr std::uint8_t edge_mask = 7, born_bit = 8, changed_bit = 16;
 
-    bool is_born(CellHandle c) const { return (state_[c.idx()] & born_bit) != 0; }
     int find_longest(CellHandle c) const;
     auto tie_breaker(CellHandle c, int edge) const;
     CellHandle in_the_way(const CellList& ring, VertexHandle a, VertexHandle b) const;

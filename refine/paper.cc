@@ -281,7 +281,7 @@ volmesh::TetMesh paper_mesh(int example) {
 SizeField paper_size(int example) {
     require_example(example);
     if (example == 1) return SizeField(1 / 6.25);
-    constexpr double h0 = 0.05, h = 0.85, tau = 3;
+    constexpr double h0 = 0.04, h = 0.75, tau = 4.5;
     return SizeField([](const Point& p) { return h0 + h * (1 - std::exp(-p.norm() / tau)); },
                      "the size of example 2");
 }

@@ -1,12 +1,37 @@
 #include "refine/project.hh"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
 #include "refine/relocate.hh"
 
 namespace maille::refine {
+namespace {
+
+bool is_inside(const TetMesh& mesh, CellHandle c, int edge) {
+    return std::ranges::none_of(mesh.halffaces_around(c, edge),
+                                [&](const auto hf) { return mesh.is_boundary(hf); });
+}
+
+int edge_to_split(const TetMesh& mesh, CellHandle c) {
+    const auto p = mesh.cell_points(c);
+    int best = 0;
+    std::pair<bool, double> best_rank{false, -1};
+    for (int edge = 0; edge < 6; ++edge) {
+        const auto [i, j] = volmesh::tet::edge_vertices[edge];
+        const bool binds = is_inside(mesh, c, edge) && mesh.is_boundary(mesh.cell_vertex(c, i)) &&
+                           mesh.is_boundary(mesh.cell_vertex(c, j));
+        const std::pair<bool, double> rank{binds, (p[i] - p[j]).squaredNorm()};
+        if (rank > best_rank) std::tie(best, best_rank) = std::pair(edge, rank);
+    }
+    return best;
+}
+
+}  // namespace
 
 BoundaryProjection::BoundaryProjection(TetMesh& mesh, const volmesh::Projector& projector, double min_shape)
     : mesh_(mesh),
@@ -29,9 +54,13 @@ std::vector<CellHandle> BoundaryProjection::run() {
 }
 
 std::vector<CellHandle> BoundaryProjection::insist() {
-    constexpr int max_sweeps = 20;
+    constexpr int patience = 5;  // sweeps in which no vertex arrives
     for (const double part : {1.0, 0.1, 0.01}) {
-        for (int i = 0; i < max_sweeps && sweep(part * min_shape_); ++i) {
+        std::size_t fewest = waiting_.size();
+        for (int failed = 0; failed < patience && sweep(part * min_shape_); ++failed) {
+            if (waiting_.size() >= fewest) continue;
+            fewest = waiting_.size();
+            failed = 0;
         }
     }
     return take_changed();
@@ -60,7 +89,7 @@ bool BoundaryProjection::sweep(double least_shape) {
         if (!waiting.has_target) return false;
         const Point before = mesh_.point(waiting.vertex);
         const bool has_arrived = approach(waiting, least_shape);
-        if (!has_arrived && make_room(waiting.vertex)) has_moved = true;
+        if (!has_arrived && make_room(waiting)) has_moved = true;
         has_moved |= mesh_.point(waiting.vertex) != before;
         return has_arrived;
     });
@@ -86,12 +115,16 @@ bool BoundaryProjection::approach(Waiting& waiting, double least_shape) {
     return false;
 }
 
-/// Moves the free vertices round v to where the worst of their cells is better; returns whether any moved.
-bool BoundaryProjection::make_room(VertexHandle v) {
+/// Moves the free vertices round a waiting one out of its way, or to the middle of their cells, where the
+/// worst of their cells is better; returns whether any moved.
+bool BoundaryProjection::make_room(const Waiting& waiting) {
+    const Point way = waiting.target - mesh_.point(waiting.vertex);
     bool has_moved = false;
-    for (const VertexHandle u : mesh_.vv_range(v)) {
-        const CellList cells = mesh_.vc_range(u);
-        if (!is_free(mesh_, u, cells) || !relax(mesh_, u, cells)) continue;
+    for (const VertexHandle v : mesh_.vv_range(waiting.vertex)) {
+        const CellList cells = mesh_.vc_range(v);
+        if (!is_free(mesh_, v, cells)) continue;
+        const Point targets[] = {polyhedron_centroid(mesh_, cells), mesh_.point(v) + way};
+        if (!relocate(mesh_, v, cells, targets)) continue;
         has_moved = true;
         changed_.insert(changed_.end(), cells.begin(), cells.end());
     }
@@ -118,19 +151,17 @@ std::vector<VertexHandle> BoundaryProjection::short_of_target() const {
     return vertices;
 }
 
-std::vector<CellHandle> BoundaryProjection::obstacles() const {
-    std::vector<CellHandle> cells;
+std::vector<CellEdge> BoundaryProjection::blocking_edges() const {
+    std::map<CellHandle, int> edges;
     for (const Waiting& waiting : waiting_) {
         if (!waiting.has_target) continue;
-        for (const CellHandle c : mesh_.vc_range(waiting.vertex)) {
-            const CellList one{c};
-            if (worst_shape(mesh_, one, waiting.vertex, waiting.target) < min_shape_) cells.push_back(c);
-        }
+        for (const CellHandle c : mesh_.vc_range(waiting.vertex))
+            if (worst_shape(mesh_, CellList{c}, waiting.vertex, waiting.target) < min_shape_)
+                edges.emplace(c, edge_to_split(mesh_, c));
     }
-    std::ranges::sort(cells);
-    const auto [repeats, end] = std::ranges::unique(cells);
-    cells.erase(repeats, end);
-    return cells;
+    std::vector<CellEdge> found;
+    for (const auto& [cell, edge] : edges) found.push_back({cell, edge});
+    return found;
 }
 
 }  // namespace maille::refine

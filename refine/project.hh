@@ -9,6 +9,12 @@
 
 namespace maille::refine {
 
+/// An edge, by a cell and its local number there.
+struct CellEdge {
+    volmesh::CellHandle cell;
+    int edge;
+};
+
 /// Moves vertices onto the true surfaces that they lie on, without ever inverting a cell or, to get there,
 /// making one worse than the shape allowed.
 ///
@@ -29,12 +35,16 @@ class BoundaryProjection {
     std::vector<volmesh::CellHandle> insist();
 
     bool is_done() const { return waiting_.empty(); }
+    /// Number of vertices that are not on all their surfaces.
+    std::size_t n_waiting() const { return waiting_.size(); }
     /// Number of vertices that have been moved towards their surfaces.
     std::size_t n_moved() const { return n_moved_; }
     /// Vertices that are not on all their surfaces, ascending.
     std::vector<volmesh::VertexHandle> short_of_target() const;
-    /// The cells that keep those vertices from their targets, ascending: to refine them gives more room.
-    std::vector<volmesh::CellHandle> obstacles() const;
+    /// Edges whose split gives those vertices more room, one for each cell in their way: inside the mesh
+    /// between two vertices of its boundary, which can't make room, if there is such an edge, or else the
+    /// cell's longest.
+    std::vector<CellEdge> blocking_edges() const;
 
   private:
     struct Waiting {
@@ -48,7 +58,7 @@ class BoundaryProjection {
     void find_targets();
     bool sweep(double least_shape);
     bool approach(Waiting& waiting, double least_shape);
-    bool make_room(volmesh::VertexHandle v);
+    bool make_room(const Waiting& waiting);
     void move(volmesh::VertexHandle v, const volmesh::Point& to);
     std::vector<volmesh::CellHandle> take_changed();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -119,18 +120,28 @@ class Refinement {
         bisector_.refresh(moved);
     }
 
-    /// Where vertices still fall short of their surfaces, tries harder, and as a last resort refines the
-    /// cells in their way, so that there are nodes that can make room. Returns whether the size has to be
-    /// seen to again.
+    /// Where vertices still fall short of their surfaces, tries harder, and as a last resort splits the edges
+    /// in their way, so that there are nodes that can make room. Returns whether the size has to be seen to
+    /// again.
     bool bring_home() {
         if (!projection_ || projection_->is_done()) return false;
-        {
-            const Stopwatch watch(result_.seconds.project);
-            bisector_.refresh(projection_->insist());
+        const Stopwatch watch(result_.seconds.project);
+        bisector_.refresh(projection_->insist());
+        if (is_worth_a_rescue(projection_->n_waiting())) {
+            const std::uint32_t first_new = mesh_.n_vertices();
+            for (const auto& [cell, edge] : projection_->blocking_edges())
+                if (!bisector_.is_born(cell)) bisector_.split(cell, edge);
+            projection_->take_up(first_new, bisector_.changed());
+            bisector_.refresh(projection_->run());
         }
-        constexpr int max_rescues = 3;
-        if (!projection_->is_done() && n_rescues_++ < max_rescues) pass(projection_->obstacles());
         return !bisector_.changed().empty();
+    }
+
+    /// While each rescue leaves fewer vertices short of their surfaces than ever before; one may fail.
+    bool is_worth_a_rescue(std::size_t n_short) {
+        if (n_short >= fewest_short_) ++n_failed_rescues_;
+        fewest_short_ = std::min(fewest_short_, n_short);
+        return n_short > 0 && n_failed_rescues_ < 2;
     }
 
     TetMesh& mesh_;
@@ -138,7 +149,8 @@ class Refinement {
     const RefineOptions& options_;
     Bisector bisector_;
     std::optional<BoundaryProjection> projection_;
-    int n_rescues_ = 0;
+    std::size_t fewest_short_ = std::numeric_limits<std::size_t>::max();
+    int n_failed_rescues_ = 0;
     RefineResult result_;
 };
 

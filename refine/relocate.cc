@@ -56,17 +56,26 @@ Point polyhedron_centroid(const TetMesh& mesh, const CellList& cells) {
     return sum / (4 * total);
 }
 
-bool relax(TetMesh& mesh, VertexHandle v, const CellList& cells) {
-    const Point from = mesh.point(v), to = polyhedron_centroid(mesh, cells);
-    const double before = worst_shape(mesh, cells, v, from);
-    for (double part = 1; part > 0.1; part /= 2) {
-        const Point at = from + part * (to - from);
-        if (worst_shape(mesh, cells, v, at) > before) {
-            mesh.set_point(v, at);
-            return true;
+bool relocate(TetMesh& mesh, VertexHandle v, const CellList& cells, std::span<const Point> targets) {
+    const Point from = mesh.point(v);
+    Point best = from;
+    double best_shape = worst_shape(mesh, cells, v, from);
+    for (const Point& target : targets) {
+        for (const double part : {1.0, 0.5, 0.25}) {
+            const Point at = from + part * (target - from);
+            const double worst = worst_shape(mesh, cells, v, at);
+            if (worst <= best_shape) continue;
+            best = at;
+            best_shape = worst;
         }
     }
-    return false;
+    mesh.set_point(v, best);
+    return best != from;
+}
+
+bool relax(TetMesh& mesh, VertexHandle v, const CellList& cells) {
+    const Point centroid = polyhedron_centroid(mesh, cells);
+    return relocate(mesh, v, cells, {&centroid, 1});
 }
 
 }  // namespace maille::refine

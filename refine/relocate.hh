@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "volmesh/tet_mesh.hh"
 
 namespace maille::refine {
@@ -24,8 +26,13 @@ bool is_free(const TetMesh& mesh, VertexHandle v, const CellList& cells);
 /// The centroid of the polyhedron that these cells make up.
 Point polyhedron_centroid(const TetMesh& mesh, const CellList& cells);
 
-/// Moves the vertex towards the centroid of the polyhedron round it, or less far, if that betters the worst
-/// of its cells. Returns whether it moved. Precondition: the vertex is free, and these are its cells.
+/// Moves the vertex to where the worst of its cells is best: on the way to one of the targets, all, half or a
+/// quarter of it. Returns whether it moved; it stays where no place is better. Precondition: the vertex is
+/// free, and these are its cells.
+bool relocate(TetMesh& mesh, VertexHandle v, const CellList& cells, std::span<const Point> targets);
+
+/// Relocates the vertex towards the centroid of the polyhedron round it. (The paper, section 3.3, "Nodes
+/// repositionning".)
 bool relax(TetMesh& mesh, VertexHandle v, const CellList& cells);
 
 }  // namespace maille::refine

@@ -176,7 +176,7 @@ TEST_CASE("the nodes of a rim lie on both of its surfaces") {
 
 TEST_CASE("nodes that move into the material don't invert it") {
     // The walls at the middle of the faces get thinner and thinner.
-    for (const double radius : {0.5, 0.8, 0.9}) {
+    for (const double radius : {0.5, 0.8, 0.9, 0.95}) {
         CAPTURE(radius);
         const Projector projector = cavity_projector(radius);
         TetMesh mesh = cube_with_cavity(4, radius);
@@ -189,6 +189,20 @@ TEST_CASE("nodes that move into the material don't invert it") {
         const double expected = 8 - 4 * std::numbers::pi / 3 * std::pow(radius, 3);
         CHECK(maille::volmesh::volume(mesh) == doctest::Approx(expected).epsilon(0.02));
     }
+}
+
+TEST_CASE("where walls are too thin for the start mesh, what falls short is named") {
+    const double radius = 0.98;
+    const Projector projector = cavity_projector(radius);
+    TetMesh mesh = cube_with_cavity(4, radius);
+    const RefineResult result = refine(mesh, SizeField(0.2), {}, &projector);
+    check_valid(mesh);
+    const auto& named = result.projection.short_of_target;
+    CHECK(std::ranges::is_sorted(named));
+    for (const auto hf : mesh.face_members(mesh.find_set("hole", EntityKind::face)))
+        for (const auto v : mesh.halfface_vertices(hf))
+            if (!std::ranges::binary_search(named, v)) CHECK(std::abs(mesh.point(v).norm() - radius) < 1e-10);
+    for (const auto v : named) CHECK(std::abs(mesh.point(v).norm() - radius) < 0.1);
 }
 
 TEST_CASE("a start mesh that is off its surface is brought there, though nothing is refined") {
