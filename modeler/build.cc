@@ -1,15 +1,14 @@
 #include "modeler/build.hh"
 
 #include <algorithm>
-#include <chrono>
-#include <unordered_map>
+#include <iterator>
 
 #include <fmt/core.h>
-#include <sys/resource.h>
 
 #include "modeler/build_size.hh"
 #include "modeler/merge_operand.hh"
 #include "modeler/parallel.hh"
+#include "modeler/phase_timer.hh"
 #include "modeler/tessellate.hh"
 #include "modeler/tetrahedralize.hh"
 #include "volmesh/error.hh"
@@ -21,35 +20,6 @@ using volmesh::CellHandle;
 using volmesh::EntityKind;
 using volmesh::SetHandle;
 using volmesh::TetMesh;
-
-double processor_seconds() {
-    double seconds = 0;
-    for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-        rusage usage{};
-        getrusage(who, &usage);
-        for (const timeval& time : {usage.ru_utime, usage.ru_stime})
-            seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    }
-    return seconds;
-}
-
-/// Adds the time of its life to a phase.
-class PhaseTimer {
-  public:
-    explicit PhaseTimer(PhaseTime& phase) : phase_(phase) {}
-    PhaseTimer(const PhaseTimer&) = delete;
-    PhaseTimer& operator=(const PhaseTimer&) = delete;
-    ~PhaseTimer() {
-        phase_.cpu_seconds += processor_seconds() - cpu_;
-        phase_.wall_seconds +=
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
-    }
-
-  private:
-    PhaseTime& phase_;
-    double cpu_ = processor_seconds();
-    std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-};
 
 double default_size(const Model& model) {
     Eigen::AlignedBox3d box;

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
+#include "modeler/build_report.hh"
 #include "modeler/model.hh"
 #include "volmesh/tet_mesh.hh"
 
@@ -22,19 +19,6 @@ struct BuildOptions {
     bool keep_cells = true;
     /// Seconds of processor time that one run of TetGen may take; 0: by the expected number of cells.
     double time_limit = 0;
-};
-
-struct PhaseTime {
-    double cpu_seconds = 0;  ///< of all threads and of the processes that they ran
-    double wall_seconds = 0;
-};
-
-struct BuildReport {
-    PhaseTime primitives;        ///< meshing each primitive by itself
-    PhaseTime merge;             ///< from there to the mesh of the model
-    std::size_t kept_cells = 0;  ///< as the primitives had them
-    std::size_t new_cells = 0;
-    std::vector<std::string> warnings;  ///< what failed and was done in another way
 };
 
 /// The tetrahedral mesh of a model: conforming, verified. Each place belongs to the primitive that `owner`

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace maille::modeler {
+
+struct PhaseTime {
+    double cpu_seconds = 0;  ///< of all threads and of the processes that they ran
+    double wall_seconds = 0;
+};
+
+struct BuildReport {
+    PhaseTime primitives;        ///< meshing each primitive by itself
+    PhaseTime merge;             ///< from there to the mesh of the model
+    std::size_t kept_cells = 0;  ///< as the primitives had them
+    std::size_t new_cells = 0;
+    std::vector<std::string> warnings;  ///< what failed and was done in another way
+};
+
+}  // namespace maille::modeler

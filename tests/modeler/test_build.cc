@@ -1,0 +1,292 @@
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <set>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+
+#include "modeler/build.hh"
+#include "modeler/shapes.hh"
+#include "volmesh/error.hh"
+#include "volmesh/measure.hh"
+#include "volmesh/validate.hh"
+
+namespace {
+
+using namespace maille;
+using namespace maille::modeler;
+using Eigen::Vector3d;
+using volmesh::EntityKind;
+using volmesh::TetMesh;
+
+CsgTree leaf(std::uint32_t i) {
+    return {Operation::leaf, i, {}};
+}
+CsgTree pair_of(Operation operation) {
+    return {operation, 0, {leaf(0), leaf(1)}};
+}
+
+Eigen::Affine3d moved(double x, double y, double z) {
+    return Eigen::Affine3d(Eigen::Translation3d(x, y, z));
+}
+
+Primitive box(const std::string& name, const Vector3d& low, const Vector3d& high,
+              const std::string& material = "") {
+    return {make_cube(high - low, false, Eigen::Affine3d(Eigen::Translation3d(low))), name, material, 0};
+}
+
+Primitive ball(const std::string& name, const Vector3d& center, double radius) {
+    return {make_sphere(radius, Eigen::Affine3d(Eigen::Translation3d(center))), name, "", 0};
+}
+
+/// Builds it and checks what holds for every mesh.
+TetMesh built(const Model& model, double size, BuildReport* report = nullptr) {
+    BuildReport told;
+    TetMesh mesh = build(model, {.size = size}, &told);
+    for (const std::string& warning : told.warnings) MESSAGE(warning);
+    const auto validation = volmesh::validate(mesh);
+    for (const std::string& error : validation.errors) MESSAGE(error);
+    CHECK(validation.ok());
+    CHECK(told.kept_cells + told.new_cells == mesh.n_cells());
+    if (report != nullptr) *report = told;
+    return mesh;
+}
+
+double measure_of(const TetMesh& mesh, const std::string& name, EntityKind kind) {
+    const auto set = mesh.find_set(name, kind);
+    return set.is_valid() ? volmesh::measure(mesh, set) : 0;
+}
+double area_of(const TetMesh& mesh, const std::string& name) {
+    return measure_of(mesh, name, EntityKind::face);
+}
+double volume_of(const TetMesh& mesh, const std::string& name) {
+    return measure_of(mesh, name, EntityKind::cell);
+}
+
+double volume_or_nothing(const Model& model, double size) {
+    try {
+        return volmesh::volume(built(model, size));
+    } catch (const InputError& error) {
+        if (std::string(error.what()).find("empty") == std::string::npos) throw;
+        return 0;
+    }
+}
+
+doctest::Approx exactly(double value) {
+    return doctest::Approx(value).epsilon(1e-9);
+}
+
+TEST_CASE("one box keeps its mesh, with its sides named") {
+    BuildReport report;
+    const TetMesh mesh = built({{box("plate", {0, 0, 0}, {1, 2, 3}, "steel")}, leaf(0)}, 0.4, &report);
+    CHECK(report.new_cells == 0);
+    CHECK(report.warnings.empty());
+    CHECK(volmesh::volume(mesh) == exactly(6));
+    CHECK(volume_of(mesh, "plate") == exactly(6));
+    CHECK(volume_of(mesh, "steel") == exactly(6));
+    for (const auto& [side, area] :
+         {std::pair{"x-", 6.0}, {"x+", 6.0}, {"y-", 3.0}, {"y+", 3.0}, {"z-", 2.0}, {"z+", 2.0}})
+        CHECK(area_of(mesh, std::string("plate/") + side) == exactly(area));
+}
+
+TEST_CASE("boxes that overlap") {
+    const std::vector<Primitive> boxes{box("a", {0, 0, 0}, {1, 1, 1}),
+                                       box("b", {0.35, 0.45, 0.55}, {1.3, 1.4, 1.5})};
+    const double both = 0.65 * 0.55 * 0.45, second = 0.95 * 0.95 * 0.95;
+    SUBCASE("union") {
+        BuildReport report;
+        const TetMesh mesh = built({boxes, pair_of(Operation::join)}, 0.1, &report);
+        CHECK(volmesh::volume(mesh) == exactly(1 + second - both));
+        CHECK(volume_of(mesh, "a") == exactly(1));
+        CHECK(area_of(mesh, "a/x+") == exactly(1 - 0.55 * 0.45));
+        CHECK(area_of(mesh, "a/x+/inner") == exactly(0.55 * 0.45));
+        CHECK(report.kept_cells > report.new_cells);
+    }
+    SUBCASE("intersection") {
+        const TetMesh mesh = built({boxes, pair_of(Operation::intersection)}, 0.1);
+        CHECK(volmesh::volume(mesh) == exactly(both));
+        CHECK(area_of(mesh, "b/x-") == exactly(0.55 * 0.45));
+    }
+    SUBCASE("difference") {
+        BuildReport report;
+        const TetMesh mesh = built({boxes, pair_of(Operation::difference)}, 0.1, &report);
+        CHECK(volmesh::volume(mesh) == exactly(1 - both));
+        CHECK(area_of(mesh, "b/x-") == exactly(0.55 * 0.45));
+        CHECK(area_of(mesh, "a/x-") == exactly(1));
+        CHECK(report.kept_cells > report.new_cells);
+    }
+    SUBCASE("fragment") {
+        const TetMesh mesh = built({boxes, pair_of(Operation::fragment)}, 0.1);
+        CHECK(volume_of(mesh, "a") == exactly(1));
+        CHECK(volume_of(mesh, "b") == exactly(second - both));
+    }
+}
+
+TEST_CASE("boxes in special positions") {
+    const auto volume = [](const Primitive& a, const Primitive& b, Operation operation) {
+        return volume_or_nothing({{a, b}, pair_of(operation)}, 0.3);
+    };
+    const Primitive unit = box("a", {0, 0, 0}, {1, 1, 1});
+    SUBCASE("coplanar sides") {
+        const Primitive other = box("b", {0.5, 0, 0}, {1.5, 1, 0.5});
+        CHECK(volume(unit, other, Operation::join) == exactly(1.25));
+        CHECK(volume(unit, other, Operation::intersection) == exactly(0.25));
+        CHECK(volume(unit, other, Operation::difference) == exactly(0.75));
+    }
+    SUBCASE("touching in a side, an edge, a corner") {
+        for (const Vector3d& low :
+             {Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(1, 1, 1), Vector3d(1, 0.3, 0.4)}) {
+            const Primitive other = box("b", low, low + Vector3d::Ones());
+            CHECK(volume(unit, other, Operation::join) == exactly(2));
+            CHECK(volume(unit, other, Operation::intersection) == 0);
+            CHECK(volume(unit, other, Operation::difference) == exactly(1));
+        }
+    }
+    SUBCASE("nested") {
+        const Primitive other = box("b", {0.3, 0.3, 0.3}, {0.6, 0.6, 0.6});
+        CHECK(volume(unit, other, Operation::join) == exactly(1));
+        CHECK(volume(unit, other, Operation::difference) == exactly(1 - 0.027));
+        CHECK(volume(other, unit, Operation::difference) == 0);
+        CHECK(volume(other, unit, Operation::fragment) == exactly(1));
+    }
+    SUBCASE("identical") {
+        const Primitive other = box("b", {0, 0, 0}, {1, 1, 1});
+        CHECK(volume(unit, other, Operation::join) == exactly(1));
+        CHECK(volume(unit, other, Operation::intersection) == exactly(1));
+        CHECK(volume(unit, other, Operation::difference) == 0);
+    }
+    SUBCASE("apart") {
+        const Primitive other = box("b", {3, 0, 0}, {4, 1, 1});
+        BuildReport report;
+        CHECK(volmesh::volume(built({{unit, other}, pair_of(Operation::join)}, 0.3, &report)) == exactly(2));
+        CHECK(report.new_cells == 0);
+        CHECK(volume(unit, other, Operation::intersection) == 0);
+    }
+}
+
+TEST_CASE("polyhedra in random positions obey the laws of sets") {
+    const unsigned seed = 20;
+    MESSAGE("seed " << seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 6; ++i) {
+        CAPTURE(i);
+        Eigen::Affine3d frame(Eigen::Translation3d(unit(random), unit(random), unit(random)));
+        frame.rotate(
+            Eigen::AngleAxisd(3 * unit(random), Vector3d(unit(random), unit(random), 1).normalized()));
+        const Primitive a = box("a", {0, 0, 0}, {1, 1, 1});
+        const std::array<std::shared_ptr<const Shape>, 3> shapes{make_cube({0.8, 0.9, 1.1}, true, frame),
+                                                                 make_prism(5, 0.6, 1, frame),
+                                                                 make_pyramid(6, 0.7, 1, frame)};
+        const Primitive b{shapes[static_cast<std::size_t>(i) % 3], "b", "", 0};
+        const auto volume = [&](const CsgTree& tree) { return volume_or_nothing({{a, b}, tree}, 0.35); };
+        const double both = volume(pair_of(Operation::intersection));
+        CHECK(volume(pair_of(Operation::join)) + both == exactly(volume(leaf(0)) + volume(leaf(1))));
+        CHECK(volume(pair_of(Operation::difference)) == exactly(volume(leaf(0)) - both));
+        const TetMesh fragments = built({{a, b}, pair_of(Operation::fragment)}, 0.35);
+        CHECK(volume_of(fragments, "a") == exactly(1));
+        CHECK(volume_of(fragments, "b") == exactly(volume(leaf(1)) - both));
+    }
+}
+
+TEST_CASE("areas of curved and flat faces come near the true ones, at second order") {
+    const auto drilled = [](double size) {
+        return built(
+            {{box("plate", {-1, -1, 0}, {1, 1, 0.6}), {make_cylinder(2, 0.5, 0.5, true), "hole", "", 0}},
+             pair_of(Operation::difference)},
+            size);
+    };
+    const double side = std::numbers::pi * 0.6, top = 4 - std::numbers::pi / 4;
+    const TetMesh coarse = drilled(0.2), fine = drilled(0.1);
+    CHECK(area_of(coarse, "hole/side") == doctest::Approx(side).epsilon(0.03));
+    CHECK(area_of(fine, "hole/side") == doctest::Approx(side).epsilon(0.01));
+    CHECK(area_of(coarse, "plate/x+") == exactly(1.2));
+    CHECK(area_of(fine, "plate/z+") == doctest::Approx(top).epsilon(0.01));
+    CHECK(std::abs(area_of(fine, "hole/side") - side) < 0.5 * std::abs(area_of(coarse, "hole/side") - side));
+    for (const auto& [face, radius] : {std::pair{"hole/side", 0.5}}) {
+        double farthest = 0;
+        for (const auto hf : fine.face_members(fine.find_set(face, EntityKind::face)))
+            for (const auto v : fine.halfface_vertices(hf))
+                farthest = std::max(farthest, std::abs(fine.point(v).head<2>().norm() - radius));
+        CHECK(farthest < 1e-9);
+    }
+}
+
+TEST_CASE("kept cells are the primitive's own, bit by bit") {
+    const Primitive a = box("a", {0, 0, 0}, {1, 1, 1});
+    const TetMesh alone = built({{a}, leaf(0)}, 0.1);
+    BuildReport report;
+    const TetMesh mesh =
+        built({{a, ball("b", {1, 1, 1}, 0.4)}, pair_of(Operation::difference)}, 0.1, &report);
+    CHECK(report.kept_cells > mesh.n_cells() / 2);
+    const auto corners = [](const TetMesh& of, volmesh::CellHandle c) {
+        std::array<std::array<double, 3>, 4> points{};
+        for (int k = 0; k < 4; ++k)
+            for (int d = 0; d < 3; ++d) points[k][d] = of.point(of.cell_vertex(c, k))[d];
+        return points;
+    };
+    std::set<std::array<std::array<double, 3>, 4>> before;
+    for (const volmesh::CellHandle c : alone.cells()) before.insert(corners(alone, c));
+    std::size_t same = 0;
+    for (const volmesh::CellHandle c : mesh.cells()) same += before.count(corners(mesh, c));
+    CHECK(same >= report.kept_cells);
+}
+
+TEST_CASE("a deep tree") {
+    Model model;
+    model.tree = leaf(0);
+    model.primitives.push_back(box("block", {0, 0, 0}, {10, 1, 1}));
+    for (std::uint32_t i = 1; i < 10; ++i) {
+        const double x = i;
+        model.primitives.push_back(box("cut" + std::to_string(i), {x - 0.2, -1, 0.5}, {x + 0.2, 2, 2}));
+        model.tree = {Operation::difference, 0, {model.tree, leaf(i)}};
+    }
+    const TetMesh mesh = built(model, 0.4);
+    CHECK(volmesh::volume(mesh) == exactly(10 - 9 * 0.4 * 0.5));
+}
+
+TEST_CASE("everything can be meshed anew") {
+    BuildReport report;
+    const Model model{{box("a", {0, 0, 0}, {1, 1, 1}), ball("b", {1, 1, 1}, 0.5)},
+                      pair_of(Operation::fragment)};
+    const TetMesh mesh = build(model, {.size = 0.2, .keep_cells = false}, &report);
+    CHECK(volmesh::validate(mesh).ok());
+    CHECK(report.kept_cells == 0);
+    CHECK(volume_of(mesh, "a") == exactly(1));
+    CHECK(volume_of(mesh, "a") + volume_of(mesh, "b") == exactly(volmesh::volume(mesh)));
+}
+
+TEST_CASE("the mesh does not depend on the number of threads") {
+    const Model model{{box("a", {0, 0, 0}, {1, 1, 1}), ball("b", {1, 1, 1}, 0.5), ball("c", {0, 0, 0}, 0.4)},
+                      {Operation::join, 0, {leaf(0), leaf(1), leaf(2)}}};
+    const TetMesh one = build(model, {.size = 0.2, .threads = 1}),
+                  two = build(model, {.size = 0.2, .threads = 2});
+    CHECK(std::ranges::equal(one.points(), two.points()));
+    CHECK(std::ranges::equal(one.cell_vertex_indices(), two.cell_vertex_indices()));
+}
+
+TEST_CASE("what cannot be built is told") {
+    const auto message_of = [](const std::function<void()>& action) -> std::string {
+        try {
+            action();
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const Model model{{box("cube1", {0, 0, 0}, {1, 1, 1})}, leaf(0)};
+    CHECK(message_of([] { build(Model{}); }).find("the model is empty") != std::string::npos);
+    CHECK(message_of([&] { build(model, {.size = -1}); }).find("size") != std::string::npos);
+    setenv("MAILLE_TETGEN", "/bin/false", 1);
+    const std::string told = message_of([&] { build(model, {.size = 0.5}); });
+    unsetenv("MAILLE_TETGEN");
+    CHECK(told.find("cube1") != std::string::npos);
+    CHECK(told.find("status 1") != std::string::npos);
+}
+
+}  // namespace
