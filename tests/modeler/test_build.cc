@@ -31,10 +31,6 @@ CsgTree pair_of(Operation operation) {
     return {operation, 0, {leaf(0), leaf(1)}};
 }
 
-Eigen::Affine3d moved(double x, double y, double z) {
-    return Eigen::Affine3d(Eigen::Translation3d(x, y, z));
-}
-
 Primitive box(const std::string& name, const Vector3d& low, const Vector3d& high,
               const std::string& material = "") {
     return {make_cube(high - low, false, Eigen::Affine3d(Eigen::Translation3d(low))), name, material, 0};
