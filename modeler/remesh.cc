@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "modeler/arrange_self_intersection.hh"
 #include "modeler/remesh_check.hh"
 #include "modeler/remesh_features.hh"
 #include "modeler/remesh_passes.hh"
@@ -16,6 +18,7 @@ using namespace remeshing;
 
 constexpr int smoothing_sweeps = 3;
 constexpr int rounds_with_new_sizes = 3;
+constexpr double tolerated_at_first = 0.4;
 
 double smallest_angle(const Net& net) {
     double worst = 1;
@@ -29,6 +32,7 @@ std::size_t work(Session& session) {
     session.net.rebuild_grid();
     std::size_t changes = collapse_edges(session);
     changes += project_vertices(session);
+    changes += flip_edges(session);
     changes += split_edges(session);
     changes += flip_edges(session);
     changes += snap_to_curves(session);
@@ -44,21 +48,22 @@ RemeshReport remesh(FacetComplex& complex, const RemeshGeometry& geometry, const
     Session session{make_net(complex, geometry), geometry, options};
     session.good = std::sin(options.min_angle * std::numbers::pi / 180);
     session.report.smallest_angle_before = smallest_angle(session.net);
-    const bool was_clear = !has_collision(session.net);
 
     // Not before the slivers are gone can gaps be told from them.
     session.net.rebuild_grid();
     collapse_edges(session);
     for (int round = 0; round < options.rounds; ++round) {
+        session.tolerated = round < options.rounds / 2 ? tolerated_at_first * session.good : session.good;
         if (round < rounds_with_new_sizes) set_sizes(session);
         if (work(session) == 0) break;
     }
 
     session.report.short_of_surface = count_short_of_surface(session);
     session.report.smallest_angle_after = smallest_angle(session.net);
-    session.net.rebuild_grid();
-    session.report.rolled_back = was_clear && has_collision(session.net);
-    if (!session.report.rolled_back) complex = make_complex(session.net);
+    FacetComplex result = make_complex(session.net);
+    // Every change was checked where it was made; this is for what no local check can see.
+    session.report.rolled_back = find_self_intersection(result) && !find_self_intersection(complex);
+    if (!session.report.rolled_back) complex = std::move(result);
     return session.report;
 }
 

@@ -187,19 +187,4 @@ bool try_change(Session& session, const Change& change, double least_quality) {
     return true;
 }
 
-bool has_collision(const Net& net) {
-    std::vector<Index> nearby;
-    for (Index t = 0; t < net.n_triangles(); ++t) {
-        if (!net.is_alive(t)) continue;
-        const PlacedTriangle triangle = placed(net, t);
-        nearby.clear();
-        net.grid().collect(triangle.corners, nearby);
-        for (const Index other : nearby)
-            if (other > t && !in_one_plane(net.patch(t), net.patch(other)) &&
-                collide(triangle, placed(net, other)))
-                return true;
-    }
-    return false;
-}
-
 }  // namespace maille::modeler::remeshing

@@ -18,7 +18,4 @@ double worst_quality(const Net& net, const Change& change);
 /// triangle; and if nothing stands where the sheets sweep.
 bool try_change(Session& session, const Change& change, double least_quality);
 
-/// Whether any two triangles of the net collide.
-bool has_collision(const Net& net);
-
 }  // namespace maille::modeler::remeshing

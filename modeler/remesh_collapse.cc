@@ -88,7 +88,8 @@ bool try_collapse(Session& session, Index u, Index w, bool is_short) {
     if (!keeps_topology(net, u, w) || !keeps_lengths(net, u, w)) return false;
     const Change change = collapse(net, u, w);
     const double before = worst_quality(net, change.removed);
-    const double least = is_short ? std::min(before, session.good) : std::min(before + 0.01, session.good);
+    const double least =
+        is_short ? std::min(before, session.tolerated) : std::min(before + 0.01, session.good);
     return try_change(session, change, least);
 }
 

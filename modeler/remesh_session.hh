@@ -12,6 +12,9 @@ struct Session {
     const RemeshOptions& options;
     RemeshReport report{};
     double good = 0.5;  ///< sine of the smallest angle that is good enough
+    /// Sine of the smallest angle that may be left where a short edge goes. It is small at first, while flips
+    /// and smoothing can still make up for it.
+    double tolerated = 0.5;
 
     // When each pass began last: what has not been touched since need not be looked at again.
     std::uint64_t collapsed = 0;

@@ -59,10 +59,14 @@ bool face_each_other(const Net& net, Index v, Index t, const Vec3& from_v_to_t) 
            });
 }
 
-/// The width of the gap between v and other sheets, up to `reach`.
+/// The width of the gap between v and other sheets, up to `reach`. Those that meet in a curve beside v make
+/// no gap.
 double gap_to_sheets(const Net& net, Index v, std::span<const Index> nearby, double reach) {
+    const auto next = net.neighbours(v);
+    const auto is_next = [&](Index w) { return w == v || std::ranges::binary_search(next, w); };
     double gap = reach;
     for (const Index t : nearby) {
+        if (std::ranges::any_of(net.triangle(t).vertices, is_next)) continue;
         const Vec3 to_sheet = nearest_on_triangle(net.corners(t), net.point(v)) - net.point(v);
         const double distance = to_sheet.norm();
         if (distance > 0 && distance < gap && face_each_other(net, v, t, to_sheet)) gap = distance;

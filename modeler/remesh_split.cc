@@ -14,6 +14,8 @@ namespace {
 
 constexpr double too_long = 1.4;        // of the wanted length
 constexpr double chord_reach = 0.5;     // of the edge's length: no surface is further from its middle
+constexpr double least_distance = 0.2;  // of the edge's length: of a new vertex from those across
+constexpr double worth_halving = 0.05;  // quality: halves of worse triangles are worse still
 constexpr double flat_triangle = 0.35;  // height over longest edge
 
 /// Both halves of every triangle at the edge, with v in the middle.
@@ -38,6 +40,14 @@ VertexKind kind_on_edge(const Session& session, Index a, Index b, std::span<cons
     return session.net.is_feature(a, b) ? curve_kind(session.geometry, surfaces, p) : VertexKind::face;
 }
 
+/// Whether a vertex there comes too close to one across the edge. Halving such flat triangles makes ever more
+/// of them.
+bool crowds_an_apex(const Net& net, Index a, Index b, const Vec3& p) {
+    return std::ranges::any_of(net.triangles_at(a, b), [&](Index t) {
+        return (net.point(apex(net.triangle(t), a, b)) - p).norm() < least_distance * net.length(a, b);
+    });
+}
+
 bool try_split(Session& session, Index a, Index b) {
     Net& net = session.net;
     const auto sides = net.triangles_at(a, b);
@@ -45,7 +55,7 @@ bool try_split(Session& session, Index a, Index b) {
     const Vec3 middle = (net.point(a) + net.point(b)) / 2;
     const VertexKind kind = kind_on_edge(session, a, b, surfaces, middle);
     const auto target = nearest(session, surfaces, kind, middle, chord_reach * net.length(a, b));
-    if (!target) return false;
+    if (!target || crowds_an_apex(net, a, b, *target)) return false;
 
     const double size = std::min(wanted_size(session, sides, *target), net.wanted_length(a, b));
     Change change;
@@ -118,7 +128,9 @@ bool try_snap(Session& session, Index t) {
 }  // namespace
 
 std::size_t split_edges(Session& session) {
+    // Curves first: their new vertices need room to move off the chord.
     struct Edge {
+        bool is_feature;
         double excess;
         Index a;
         Index b;
@@ -128,15 +140,18 @@ std::size_t split_edges(Session& session) {
     std::priority_queue<Edge> queue;
     const auto consider = [&](Index a, Index b) {
         const double excess = net.length(a, b) / net.wanted_length(a, b);
-        if (excess > too_long) queue.push({excess, std::min(a, b), std::max(a, b)});
+        if (excess > too_long) queue.push({net.is_feature(a, b), excess, std::min(a, b), std::max(a, b)});
     };
     for (const auto& [a, b] : net.edges()) consider(a, b);
 
     std::size_t done = 0;
     while (!queue.empty()) {
-        const auto [excess, a, b] = queue.top();
+        const auto [is_feature, excess, a, b] = queue.top();
         queue.pop();
-        if (!net.has_edge(a, b) || !try_split(session, a, b)) continue;
+        if (!net.has_edge(a, b) ||
+            (!is_feature && worst_quality(net, net.triangles_at(a, b)) < worth_halving))
+            continue;
+        if (!try_split(session, a, b)) continue;
         ++done;
         const Index middle = net.n_vertices() - 1;
         for (const Index x : net.neighbours(middle)) consider(middle, x);

@@ -4,9 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include "modeler/arrange_self_intersection.hh"
 #include "modeler/remesh.hh"
-#include "modeler/remesh_check.hh"
-#include "modeler/remesh_features.hh"
 #include "remesh_samples.hh"
 
 using namespace remesh_samples;
@@ -18,8 +17,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 bool crosses_itself(const Sample& sample) {
-    return maille::modeler::remeshing::has_collision(
-        maille::modeler::remeshing::make_net(sample.complex, geometry(sample.surfaces, 1)));
+    return maille::modeler::find_self_intersection(sample.complex).has_value();
 }
 
 /// Remeshes, and checks what must hold of every result.
