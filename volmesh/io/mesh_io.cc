@@ -73,4 +73,8 @@ void write_mesh(const TetMesh& mesh, const std::filesystem::path& path, const Wr
     format.write(kept, path);
 }
 
+void check_output_format(const std::filesystem::path& path, const WriteOptions& options) {
+    format_of(path, options.format);
+}
+
 }  // namespace maille::volmesh

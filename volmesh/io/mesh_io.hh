@@ -35,4 +35,8 @@ TetMesh read_mesh(const std::filesystem::path& path);
 /// cannot be written or its format cannot hold the mesh.
 void write_mesh(const TetMesh& mesh, const std::filesystem::path& path, const WriteOptions& options = {});
 
+/// Throws InputError where write_mesh would not know the extension or the format: for those who want to know
+/// before a long work.
+void check_output_format(const std::filesystem::path& path, const WriteOptions& options = {});
+
 }  // namespace maille::volmesh
