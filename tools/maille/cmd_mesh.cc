@@ -1,0 +1,76 @@
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/maille/commands.hh"
+#include "tools/maille/common_options.hh"
+#include "tools/maille/model_options.hh"
+#include "tools/maille/output_options.hh"
+#include "tools/maille/picture_option.hh"
+#include "tools/maille/refine_options.hh"
+#include "tools/maille/size_argument.hh"
+#include "tools/maille/start_mesh.hh"
+#include "tools/maille/summary.hh"
+
+namespace maille::tools {
+namespace {
+
+struct MeshOptions {
+    CommonOptions common;
+    ModelOptions model;
+    std::optional<std::string> start_size;
+    std::optional<std::string> refined_size;
+    refine::RefineOptions refine;
+    OutputOptions output;
+    std::string picture;
+};
+
+void run(const MeshOptions& options) {
+    check_output(options.output);
+    if (!options.picture.empty()) check_folder(options.picture);
+    const std::optional<refine::SizeField> refined_size = optional_size_field(options.refined_size);
+
+    Summary summary;
+    Progress progress(options.common, refined_size ? 5 : 4);
+    progress.step("reading the model");
+    const modeler::Model model = read(options.model);
+    const std::optional<refine::SizeField> start_size = optional_size_field(options.start_size);
+    summary.clock.end(Phase::read);
+
+    volmesh::TetMesh mesh = start_mesh(model, start_size, options.common.threads, progress, summary);
+    if (refined_size) {
+        progress.step("refining");
+        const volmesh::Projector projector = modeler::projector(model);
+        summary.add(refine_with_progress(mesh, *refined_size, options.refine, &projector, progress));
+        summary.clock.end(Phase::refine);
+    }
+    progress.step("writing");
+    write(mesh, options.output);
+    if (!options.picture.empty()) write_picture(mesh, options.picture);
+    summary.clock.end(Phase::write);
+    progress.done();
+    summary.print(mesh, options.output.path, options.common);
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& program) {
+    const auto options = std::make_shared<MeshOptions>();
+    CLI::App& command = add_command(
+        program, "mesh", "Make a tetrahedral mesh of a CSG model",
+        "maille mesh examples/bracket.csg --size 4 --refine '0.4+3*(1-exp(-r/10))' -o bracket.vtu", options,
+        run);
+    command.add_option("MODEL", options->model.path, "Model file (.csg)")->required();
+    add_output_options(command, options->output);
+    command.add_option("--size", options->start_size, start_size_help)->type_name("EXPR");
+    add_facets_option(command, options->model);
+    command
+        .add_option("--refine", options->refined_size,
+                    "Then refine to this size, with new boundary vertices on the true surfaces")
+        ->type_name("EXPR");
+    add_refine_options(command, options->refine);
+    add_picture_option(command, options->picture);
+    add_json_option(command, options->common, "a summary");
+}
+
+}  // namespace maille::tools

@@ -1,0 +1,69 @@
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "modeler/model.hh"
+#include "quality/improve.hh"
+#include "quality/report.hh"
+#include "tools/maille/commands.hh"
+#include "tools/maille/common_options.hh"
+#include "tools/maille/model_options.hh"
+#include "tools/maille/output_options.hh"
+#include "tools/maille/size_argument.hh"
+#include "volmesh/io/mesh_io.hh"
+
+namespace maille::tools {
+namespace {
+
+struct QualityOptions {
+    CommonOptions common;
+    std::string mesh;
+    std::optional<std::string> size;
+    ModelOptions model;
+    OutputOptions improved;
+};
+
+/// Betters the mesh and writes it. Without a model only vertices inside it move.
+void improve_and_write(volmesh::TetMesh& mesh, const QualityOptions& options) {
+    std::optional<volmesh::Projector> projector;
+    if (!options.model.path.empty()) projector = modeler::projector(read(options.model));
+    quality::improve(mesh, {}, projector ? &*projector : nullptr);
+    write(mesh, options.improved);
+}
+
+void run(const QualityOptions& options) {
+    std::optional<quality::WantedSize> size;
+    if (options.size) size = size_field(*options.size);
+    const bool improves = !options.improved.path.empty();
+    if (improves) check_output(options.improved);
+    volmesh::TetMesh mesh = volmesh::read_mesh(options.mesh);
+    if (improves) improve_and_write(mesh, options);
+    const quality::Report report = quality::assess(mesh, size ? &*size : nullptr);
+    fmt::print("{}",
+               options.common.json ? quality::to_json(report).dump(2) + "\n" : quality::to_text(report));
+}
+
+}  // namespace
+
+void add_quality_command(CLI::App& program) {
+    const auto options = std::make_shared<QualityOptions>();
+    CLI::App& command = add_command(program, "quality", "Measure the cells of a mesh, or better them",
+                                    "maille quality bracket.vtu --size '0.4+3*(1-exp(-r/10))'", options, run);
+    command.add_option("MESH", options->mesh, "Mesh file")->required();
+    command
+        .add_option("--size", options->size,
+                    std::string("Wanted size, for the size measure phi: ") + size_help)
+        ->type_name("EXPR");
+    CLI::Option* improve = command
+                               .add_option("--improve", options->improved.path,
+                                           "Move vertices to better the worst cells, write this "
+                                           "mesh and report on it")
+                               ->type_name("OUT");
+    add_model_options(command, options->model, "Let vertices on the surfaces of this model move along them")
+        ->needs(improve);
+    add_json_option(command, options->common, "the report");
+}
+
+}  // namespace maille::tools

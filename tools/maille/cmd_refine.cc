@@ -1,0 +1,92 @@
+#include <CLI/CLI.hpp>
+
+#include "tools/maille/commands.hh"
+#include "tools/maille/common_options.hh"
+#include "tools/maille/model_options.hh"
+#include "tools/maille/output_options.hh"
+#include "tools/maille/refine_options.hh"
+#include "tools/maille/size_argument.hh"
+#include "tools/maille/start_mesh.hh"
+#include "tools/maille/summary.hh"
+#include "volmesh/error.hh"
+#include "volmesh/io/mesh_io.hh"
+
+namespace maille::tools {
+namespace {
+
+struct RefineCommandOptions {
+    CommonOptions common;
+    std::string input;
+    ModelOptions model;
+    std::string size;
+    refine::RefineOptions refine;
+    OutputOptions output;
+};
+
+/// The mesh to refine: read, or made of the model where that is what was given.
+volmesh::TetMesh read_mesh_or_make(const RefineCommandOptions& options,
+                                   const std::optional<modeler::Model>& model, Progress& progress,
+                                   Summary& summary) {
+    if (is_model_file(options.input))
+        return start_mesh(*model, std::nullopt, options.common.threads, progress, summary);
+    volmesh::TetMesh mesh = volmesh::read_mesh(options.input);
+    summary.clock.end(Phase::read);
+    return mesh;
+}
+
+/// The model that the mesh is to follow, if there is one.
+std::optional<modeler::Model> model_of(const RefineCommandOptions& options) {
+    ModelOptions model = options.model;
+    if (is_model_file(options.input)) {
+        if (!model.path.empty())
+            throw InputError("--model goes with a mesh: " + options.input + " is a model itself");
+        model.path = options.input;
+    }
+    if (model.path.empty()) return std::nullopt;
+    return read(model);
+}
+
+void run(const RefineCommandOptions& options) {
+    check_output(options.output);
+    const refine::SizeField size = size_field(options.size);
+    Summary summary;
+    Progress progress(options.common, is_model_file(options.input) ? 5 : 3);
+    progress.step("reading");
+    const std::optional<modeler::Model> model = model_of(options);
+    summary.clock.end(Phase::read);
+    volmesh::TetMesh mesh = read_mesh_or_make(options, model, progress, summary);
+
+    progress.step("refining");
+    std::optional<volmesh::Projector> projector;
+    if (model) projector = modeler::projector(*model);
+    summary.add(
+        refine_with_progress(mesh, size, options.refine, projector ? &*projector : nullptr, progress));
+    summary.clock.end(Phase::refine);
+
+    progress.step("writing");
+    write(mesh, options.output);
+    summary.clock.end(Phase::write);
+    progress.done();
+    summary.print(mesh, options.output.path, options.common);
+}
+
+}  // namespace
+
+void add_refine_command(CLI::App& program) {
+    const auto options = std::make_shared<RefineCommandOptions>();
+    CLI::App& command = add_command(
+        program, "refine", "Refine a mesh, or the mesh of a model, to a size",
+        "maille refine examples/tee.csg --size 0.1 --method rivara --order longest -o tee.msh", options, run);
+    command.add_option("MESH", options->input, "Mesh file, or model file (.csg)")->required();
+    add_output_options(command, options->output);
+    command.add_option("--size", options->size, std::string("Wanted size: ") + size_help)
+        ->required()
+        ->type_name("EXPR");
+    add_refine_options(command, options->refine);
+    add_model_options(command, options->model, "Put new boundary vertices on the surfaces of this model");
+    command.add_flag("!--no-project", options->refine.project,
+                     "Leave new boundary vertices where they are born");
+    add_json_option(command, options->common, "a summary");
+}
+
+}  // namespace maille::tools

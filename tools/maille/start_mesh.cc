@@ -1,0 +1,67 @@
+#include "tools/maille/start_mesh.hh"
+
+#include <algorithm>
+#include <thread>
+
+#include "modeler/build.hh"
+#include "tools/maille/refine_options.hh"
+
+namespace maille::tools {
+namespace {
+
+struct Range {
+    double least;
+    double greatest;
+};
+
+/// Of the size over the model's box, on a lattice.
+Range range_of(const refine::SizeField& size, const modeler::Model& model) {
+    constexpr int steps = 24;
+    Eigen::AlignedBox3d box;
+    for (const modeler::Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
+    const double first = size(box.min());
+    Range range{.least = first, .greatest = first};
+    for (int i = 0; i <= steps; ++i)
+        for (int j = 0; j <= steps; ++j)
+            for (int k = 0; k <= steps; ++k) {
+                const modeler::Point part = modeler::Point(i, j, k) / steps;
+                const double value = size(box.min() + part.cwiseProduct(box.sizes()));
+                range.least = std::min(range.least, value);
+                range.greatest = std::max(range.greatest, value);
+            }
+    return range;
+}
+
+volmesh::TetMesh build(const modeler::Model& model, double size, int threads, Progress& progress,
+                       Summary& summary) {
+    progress.step("meshing the primitives and merging them");
+    modeler::BuildOptions options;
+    options.size = size;
+    options.threads =
+        threads > 0 ? static_cast<unsigned>(threads) : std::max(1U, std::thread::hardware_concurrency());
+    modeler::BuildReport report;
+    volmesh::TetMesh mesh = modeler::build(model, options, &report);
+    for (const std::string& warning : report.warnings) progress.log(warning);
+    summary.clock.add(Phase::primitives, {report.primitives.cpu_seconds, report.primitives.wall_seconds});
+    summary.clock.add(Phase::merge, {report.merge.cpu_seconds, report.merge.wall_seconds});
+    summary.clock.skip();
+    return mesh;
+}
+
+}  // namespace
+
+volmesh::TetMesh start_mesh(const modeler::Model& model, const std::optional<refine::SizeField>& size,
+                            int threads, Progress& progress, Summary& summary) {
+    if (!size) return build(model, 0, threads, progress, summary);
+    const Range range = range_of(*size, model);
+    summary.clock.end(Phase::read);
+    volmesh::TetMesh mesh = build(model, range.greatest, threads, progress, summary);
+    if (range.least < range.greatest) {
+        const volmesh::Projector projector = modeler::projector(model);
+        summary.add(refine_with_progress(mesh, *size, {.threads = threads}, &projector, progress));
+        summary.clock.end(Phase::refine);
+    }
+    return mesh;
+}
+
+}  // namespace maille::tools

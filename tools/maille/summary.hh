@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "refine/refine.hh"
+#include "tools/maille/common_options.hh"
+#include "tools/maille/phase_clock.hh"
+#include "volmesh/tet_mesh.hh"
+
+namespace maille::tools {
+
+/// What `mesh`, `refine` and `merge` say of their work.
+struct Summary {
+    int iterations = 0;
+    std::size_t moved = 0;            ///< vertices that were projected
+    std::size_t short_of_target = 0;  ///< vertices that are not on their surfaces
+    PhaseClock clock;
+
+    void add(const refine::RefineResult& result);
+    /// On stdout: as JSON or, unless it is to be quiet, as text.
+    void print(const volmesh::TetMesh& mesh, const std::string& path, const CommonOptions& options) const;
+};
+
+}  // namespace maille::tools
