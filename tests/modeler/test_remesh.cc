@@ -65,7 +65,7 @@ TEST_CASE("coarse boxes are split to the size") {
     CHECK(report.splits > 1000);
     CHECK(smallest_angle(sample.complex) > 30);
     CHECK(lengths(sample.complex).longest < 0.14 + 1e-12);
-    CHECK(lengths(sample.complex).shortest > 0.06);
+    CHECK(lengths(sample.complex).shortest > 0.05);
 }
 
 TEST_CASE("a ball with terrible triangles: good ones after, and its volume of second order") {
