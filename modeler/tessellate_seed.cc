@@ -33,10 +33,11 @@ double Sizing::for_curvature(double curvature) const {
     if (!(curvature > 0)) return options_.size;
     const double eighth = std::numbers::pi / 4 / std::min(curvature, 8 / thinnest_radius_);
     double length = std::min(options_.size, eighth);
-    // The middle of an equilateral triangle of edge e is e^2 / 6R below a sphere of radius R.
+    // The middle of an equilateral triangle of edge e is e^2 / 6R below a sphere of radius R; some edges are
+    // longer than wanted.
     if (options_.chord_tolerance > 0)
         length =
-            std::min(length, std::sqrt(6 * options_.chord_tolerance / std::min(curvature, max_curvature_)));
+            std::min(length, std::sqrt(3 * options_.chord_tolerance / std::min(curvature, max_curvature_)));
     return length;
 }
 

@@ -78,7 +78,7 @@ TEST_CASE("The rim of a cylinder is a circle") {
     const auto projector = maille::modeler::projector(model_of({make_cylinder(1, 0.5, 0.5, false)}));
     std::mt19937 random(1);
     for (int i = 0; i < 1000; ++i) {
-        const Point p = random_point(random, 0.8);
+        const Point p = Point::UnitZ() + random_point(random, 0.8);
         const auto image = project(projector, {"part0/side", "part0/top"}, p);
         REQUIRE(image);
         const Eigen::Vector2d expected = 0.5 * p.head<2>().normalized();
@@ -106,7 +106,7 @@ TEST_CASE("Near a curve of any two surfaces the nearest of its points is found")
     MESSAGE("seed " << seed);
     std::mt19937 random(seed);
     int found = 0;
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < 25; ++round) {
         const auto frame = [&] { return test::random_frame(random, 2); };
         const std::vector<std::shared_ptr<const Shape>> kinds{
             make_sphere(1, frame()), make_cylinder(2, 0.7, 0.7, true, frame()), make_torus(1, 0.4, frame()),
@@ -133,7 +133,7 @@ TEST_CASE("Near a curve of any two surfaces the nearest of its points is found")
                 CHECK(std::abs((p - *image).dot(tangent.normalized())) < 1e-11 * projector.model_size);
         }
     }
-    CHECK(found > 1500);
+    CHECK(found > 600);
 }
 
 TEST_CASE("Redundant surfaces do no harm") {
