@@ -16,11 +16,8 @@ void add(Support& to, const Support& more) {
 
 Supports::Supports(const volmesh::TetMesh& mesh, const volmesh::Projector& projector) : mesh_(mesh) {
     for (std::uint32_t i = 0; i < projector.surfaces.size(); ++i) {
-        // Faces between two regions inside the mesh lie on the same surface as those on its boundary.
-        for (const char* suffix : {"", "/inner"}) {
-            const auto set = mesh.find_set(projector.surfaces[i] + suffix, volmesh::EntityKind::face);
-            if (set.is_valid()) surface_of_set_.emplace(set, i);
-        }
+        const auto set = mesh.find_set(projector.surfaces[i], volmesh::EntityKind::face);
+        if (set.is_valid()) surface_of_set_.emplace(set, i);
     }
 }
 
