@@ -57,7 +57,8 @@ struct Seconds {
 
 struct RefineResult {
     int iterations = 0;  ///< passes that had an element to refine
-    bool ended = true;   ///< false where a cap was hit with elements left to refine
+    bool ended =
+        true;  ///< false where elements are left to refine: a cap was hit, or they are too flat to be split
     std::uint32_t cells = 0, vertices = 0;
     Lineage lineage;
     ProjectionResult projection;
