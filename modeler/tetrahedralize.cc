@@ -131,7 +131,7 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
         request.switches = fmt::format("pq1.4/14{}nQo/140a{:.17g}", keep, volume_of_size(sizes[0]));
     } else if (rung.refine) {
         place_seeds(request, complex, sizes);
-        request.switches = fmt::format("pq1.4/12{}nQo/140a", keep);
+        request.switches = fmt::format("pq1.4/12{}AnQo/140a", keep);
     }
     Answer answer = tetgen::run(request);
     tetgen::check_complete(answer, request);
