@@ -170,7 +170,7 @@ TEST_CASE("polyhedra in random positions obey the laws of sets") {
     MESSAGE("seed " << seed);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 20; ++i) {
         CAPTURE(i);
         Eigen::Affine3d frame(Eigen::Translation3d(unit(random), unit(random), unit(random)));
         frame.rotate(
@@ -180,11 +180,11 @@ TEST_CASE("polyhedra in random positions obey the laws of sets") {
                                                                  make_prism(5, 0.6, 1, frame),
                                                                  make_pyramid(6, 0.7, 1, frame)};
         const Primitive b{shapes[static_cast<std::size_t>(i) % 3], "b", "", 0};
-        const auto volume = [&](const CsgTree& tree) { return volume_or_nothing({{a, b}, tree}, 0.35); };
+        const auto volume = [&](const CsgTree& tree) { return volume_or_nothing({{a, b}, tree}, 0.5); };
         const double both = volume(pair_of(Operation::intersection));
         CHECK(volume(pair_of(Operation::join)) + both == exactly(volume(leaf(0)) + volume(leaf(1))));
         CHECK(volume(pair_of(Operation::difference)) == exactly(volume(leaf(0)) - both));
-        const TetMesh fragments = built({{a, b}, pair_of(Operation::fragment)}, 0.35);
+        const TetMesh fragments = built({{a, b}, pair_of(Operation::fragment)}, 0.5);
         CHECK(volume_of(fragments, "a") == exactly(1));
         CHECK(volume_of(fragments, "b") == exactly(volume(leaf(1)) - both));
     }
