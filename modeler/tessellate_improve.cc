@@ -378,7 +378,7 @@ void Improver::run() {
             smooth();
             flip_edges();
         }
-        if (changes == 0) break;
+        if (changes <= mesh_.n_edges() / 1000) break;
         find_wanted();
     }
     for (int i = 0; i < polishings; ++i) {
