@@ -1,6 +1,7 @@
 #include "modeler/arrange.hh"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -87,6 +88,19 @@ void mark_whole_facets(Arrangement& arrangement, std::span<const ClosedSurface> 
     }
 }
 
+/// Whether the facets around each region match at every edge.
+bool is_closed(const FacetComplex& complex) {
+    std::map<std::pair<Region, std::uint64_t>, int> balance;
+    for (const Facet& f : complex.facets)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = f.vertices[k], b = f.vertices[(k + 1) % 3];
+            const int sense = a < b ? 1 : -1;
+            balance[{f.back, edge_key(a, b)}] += sense;
+            balance[{f.front, edge_key(a, b)}] -= sense;
+        }
+    return std::ranges::all_of(balance, [](const auto& entry) { return entry.second == 0; });
+}
+
 void check_tree(const CsgTree& tree, std::size_t n_primitives) {
     if (tree.operation == Operation::leaf && tree.primitive >= n_primitives)
         throw InputError(
@@ -108,6 +122,11 @@ Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tr
         arrange_pairs(scene, positions_on_planes(scene.complex, pairs, weld_distance), pairs, tree);
     for (int round = 0; round <= options.max_repairs; ++round) {
         weld(result, weld_distance);
+        if (!is_closed(result.complex))
+            throw InputError(
+                "the surfaces of the model could not be cut where they meet: the regions between them are "
+                "not "
+                "closed; move or turn a primitive a little");
         const auto crossing = pairs_to_repair(result.complex);
         if (!crossing) {
             mark_whole_facets(result, primitives);
