@@ -53,8 +53,8 @@ struct ArrangeOptions {
 /// Where surfaces of several primitives coincide, the facet has the surface of a primitive that owns one of
 /// its sides (the earliest), or else of the earliest primitive.
 ///
-/// Throws InputError for an index out of range, a point that is not finite, a surface that is not closed, when the regions
-/// when no rounding free of self-intersections is found.
+/// Throws InputError for an index out of range, a point that is not finite, a surface that is not closed,
+/// when the regions found do not close, or when no rounding free of self-intersections is found.
 Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tree,
                     const ArrangeOptions& options = {});
 
