@@ -77,7 +77,7 @@ TEST_CASE("a lens converges") {
     check_second_order("lens", 1);
 }
 TEST_CASE("a napkin ring converges") {
-    check_second_order("napkin_ring", 1);
+    check_second_order("napkin_ring", 0.5);
 }
 TEST_CASE("stacked boxes are exact") {
     check_exact("stacked_boxes", 0.8);
