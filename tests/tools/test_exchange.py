@@ -18,7 +18,7 @@ fragment() {
 """
 GROUPS_3D = {"ball", "block", "lead", "resin"}
 GROUPS_2D = {"ball/surface", "ball/surface/inner", "block/x-", "block/x+", "block/y-", "block/y+", "block/z-",
-             "block/z+", "block/x-/inner"}
+             "block/z+"}
 
 
 class Exchange(MailleCase):
