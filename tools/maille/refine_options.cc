@@ -1,9 +1,13 @@
 #include "tools/maille/refine_options.hh"
 
 #include <map>
+#include <numbers>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include "volmesh/error.hh"
+#include "volmesh/measure.hh"
 
 namespace maille::tools {
 namespace {
@@ -18,6 +22,22 @@ const std::map<std::string, Order> orders{
 template <typename Value>
 const std::string& name_in(const std::map<std::string, Value>& names, Value value) {
     return std::ranges::find(names, value, [](const auto& entry) { return entry.second; })->first;
+}
+
+/// Refuses a size that takes more cells than a mesh may have. No tetrahedron is larger than the regular one,
+/// so the sum is less than their number, as far as the size is seen at the present cells' centroids.
+void refuse_too_many_cells(const volmesh::TetMesh& mesh, const refine::SizeField& size,
+                           const refine::RefineOptions& options) {
+    const double volume_of_unit_edge = 1 / (6 * std::numbers::sqrt2);
+    double least_number = 0;
+    for (const volmesh::CellHandle c : mesh.cells()) {
+        const auto p = mesh.cell_points(c);
+        const double edge = options.ratio * size((p[0] + p[1] + p[2] + p[3]) / 4);
+        least_number += volmesh::volume(mesh, c) / edge / edge / edge / volume_of_unit_edge;
+    }
+    if (least_number > options.max_cells)
+        throw InputError(fmt::format("this size takes more than {:.2g} cells; a mesh may have {}",
+                                     least_number, options.max_cells));
 }
 
 }  // namespace
@@ -52,6 +72,7 @@ void add_refine_options(CLI::App& command, refine::RefineOptions& options) {
 refine::RefineResult refine_with_progress(volmesh::TetMesh& mesh, const refine::SizeField& size,
                                           refine::RefineOptions options, const volmesh::Projector* projector,
                                           Progress& progress) {
+    refuse_too_many_cells(mesh, size, options);
     options.progress = [&](const refine::Progress& pass) {
         progress.note(fmt::format("pass {}, {} cells", pass.iterations, pass.cells));
     };
