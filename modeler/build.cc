@@ -110,7 +110,7 @@ RemeshGeometry remesh_geometry(const Model& model, std::span<const Operand> oper
     const auto face = [numbered = surfaces(model), primitives = model.primitives](std::uint32_t surface) {
         return std::pair(primitives[numbered[surface].primitive].shape.get(), numbered[surface].face);
     };
-    return {.project = projector(model).project,
+    return {.project = surface_projection(model),
             .normal =
                 [=](std::uint32_t surface, const Point& p) {
                     const auto [shape, number] = face(surface);

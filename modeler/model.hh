@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,8 +50,16 @@ Model read_model(const std::filesystem::path& path, Facets facets = Facets::auto
 /// The same from memory; `name` stands for the file in messages.
 Model parse_model(std::string_view text, const std::string& name, Facets facets = Facets::automatic);
 
-/// The model's surfaces as a mesh asks for them. It holds the shapes, and outlives the model.
-/// The names are those of `surfaces(model)` followed by the same with `inner_suffix`.
+/// The point nearest to p that lies on all the surfaces given by number, as volmesh::Projector has it. It
+/// holds the shapes, and outlives the model.
+using SurfaceProjection =
+    std::function<std::optional<Point>(std::span<const std::uint32_t> surfaces, const Point& p)>;
+SurfaceProjection surface_projection(const Model& model);
+
+/// The model's surfaces as a mesh asks for them, by the names of its face sets. It holds the shapes, and
+/// outlives the model. Its surfaces are the different names in `surfaces(model)`, in order of appearance,
+/// followed by the same with `inner_suffix`. Where several surfaces bear one name (two holes called "hole"),
+/// the one nearest to the point counts.
 volmesh::Projector projector(const Model& model);
 
 }  // namespace maille::modeler

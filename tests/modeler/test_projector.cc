@@ -42,6 +42,19 @@ Point random_point(std::mt19937& random, double reach) {
 
 }  // namespace
 
+TEST_CASE("Where two solids share a name, the nearer surface counts") {
+    maille::modeler::Model model =
+        model_of({make_cylinder(1, 0.5, 0.5, false),
+                  make_cylinder(1, 0.5, 0.5, false, Eigen::Affine3d(Eigen::Translation3d(3, 0, 0)))});
+    for (auto& primitive : model.primitives) primitive.name = "hole";
+    const auto projector = maille::modeler::projector(model);
+    REQUIRE(projector.surfaces.size() == 6);
+    CHECK(std::ranges::count(projector.surfaces, "hole/side") == 1);
+    CHECK((*project(projector, {"hole/side"}, {0.4, 0, 0.3}) - Point(0.5, 0, 0.3)).norm() < 1e-15);
+    CHECK((*project(projector, {"hole/side"}, {2.7, 0, 0.3}) - Point(2.5, 0, 0.3)).norm() < 1e-15);
+    CHECK((*project(projector, {"hole/side", "hole/top"}, {3.6, 0, 0.9}) - Point(3.5, 0, 1)).norm() < 1e-12);
+}
+
 TEST_CASE("A projector names all surfaces, then the same as inner ones") {
     const auto projector = maille::modeler::projector(
         model_of({make_cube({1, 1, 1}, false), make_cylinder(1, 1, 1, false), make_sphere(1)}));
