@@ -38,14 +38,30 @@ std::vector<Eigen::Vector3f> seen_points(const Scene& scene) {
     return points;
 }
 
+std::size_t n_cells_met(const volmesh::TetMesh& mesh, const Plane& plane) {
+    std::size_t n = 0;
+    for (volmesh::CellHandle c : mesh.cells()) {
+        int n_in_front = 0;
+        for (const Eigen::Vector3d& p : mesh.cell_points(c))
+            n_in_front += plane.signedDistance(p) > 0 ? 1 : 0;
+        n += n_in_front > 0 && n_in_front < 4 ? 1 : 0;
+    }
+    return n;
+}
+
 }  // namespace
 
 Plane front_cut(const volmesh::TetMesh& mesh, const Eigen::Vector3d& view) {
     Eigen::AlignedBox3d box;
     for (std::uint32_t i = 0; i < mesh.n_vertices(); ++i)
         if (!mesh.is_deleted(volmesh::VertexHandle(i))) box.extend(mesh.point(volmesh::VertexHandle(i)));
-    const int axis = std::abs(view.x()) > std::abs(view.y()) ? 0 : 1;
-    return {Eigen::Vector3d::Unit(axis) * (view[axis] < 0 ? -1 : 1), box.center()};
+    const auto across = [&](int axis) {
+        return Plane(Eigen::Vector3d::Unit(axis) * (view[axis] < 0 ? -1 : 1), box.center());
+    };
+    const int facing = std::abs(view.x()) > std::abs(view.y()) ? 0 : 1;
+    const Plane first = across(facing);
+    const Plane second = across(1 - facing);
+    return n_cells_met(mesh, second) > n_cells_met(mesh, first) ? second : first;
 }
 
 void write_picture(const volmesh::TetMesh& mesh, const std::filesystem::path& path,

@@ -22,7 +22,8 @@ struct PictureOptions {
     bool legend = true;  ///< names of the cell sets and of the boundary's face sets
 };
 
-/// The upright plane through the middle of the mesh, across x or y, that parts the half nearer to the eye.
+/// The upright plane through the middle of the mesh, across x or y, that parts the half nearer to the eye: of
+/// the two the one that meets more cells, so that there is more to see.
 Plane front_cut(const volmesh::TetMesh& mesh, const Eigen::Vector3d& view);
 
 /// Draws the mesh in a PNG file, with ray tracing and without a display: cells in the colours of their cell
