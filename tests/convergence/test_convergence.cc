@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <doctest/doctest.h>
 
@@ -96,26 +97,28 @@ TEST_CASE("the cases' parts add up to their wholes") {
 }
 
 TEST_CASE("volumes that are integrals agree with counting points") {
-    // A grid over the model's box, each point asked of the primitives themselves.
+    // Random points in the model's box, each asked of the primitives themselves.
     for (const char* name : {"tee", "torus_with_hole", "die", "bicylinder"}) {
         CAPTURE(name);
         const Case c = find(name);
         const modeler::Model model = model_of(c, examples);
         Eigen::AlignedBox3d box;
         for (const auto& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
-        constexpr int n = 90;
-        const Eigen::Vector3d step = box.sizes() / n;
-        std::size_t inside = 0;
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n; ++j)
-                for (int k = 0; k < n; ++k) {
-                    const modeler::Point p =
-                        box.min() + step.cwiseProduct(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5));
-                    if (modeler::owner(model.tree, [&](std::uint32_t m) {
-                            return model.primitives[m].shape->contains(p);
-                        }))
-                        ++inside;
-                }
-        CHECK(static_cast<double>(inside) * step.prod() == doctest::Approx(c.volume).epsilon(0.01));
+        constexpr unsigned seed = 7;
+        constexpr int n = 1'000'000;
+        CAPTURE(seed);
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> unit(0, 1);
+        int inside = 0;
+        for (int i = 0; i < n; ++i) {
+            const double x = unit(random), y = unit(random), z = unit(random);
+            const modeler::Point p = box.min() + box.sizes().cwiseProduct(Eigen::Vector3d(x, y, z));
+            const auto is_inside = [&](std::uint32_t m) { return model.primitives[m].shape->contains(p); };
+            inside += modeler::owner(model.tree, is_inside) ? 1 : 0;
+        }
+        // Five standard deviations of the count.
+        const double part = static_cast<double>(inside) / n;
+        const double error = 5 * std::sqrt(part * (1 - part) / n) * box.volume();
+        CHECK(std::abs(part * box.volume() - c.volume) < error);
     }
 }
