@@ -57,9 +57,8 @@ using SurfaceProjection =
 SurfaceProjection surface_projection(const Model& model);
 
 /// The model's surfaces as a mesh asks for them, by the names of its face sets. It holds the shapes, and
-/// outlives the model. Its surfaces are the different names in `surfaces(model)`, in order of appearance,
-/// followed by the same with `inner_suffix`. Where several surfaces bear one name (two holes called "hole"),
-/// the one nearest to the point counts.
+/// outlives the model. Its surfaces are those of `surfaces(model)`, of which several may bear one name (two
+/// holes called "hole"), followed by the same with `inner_suffix`.
 volmesh::Projector projector(const Model& model);
 
 }  // namespace maille::modeler

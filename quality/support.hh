@@ -1,17 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
-#include <boost/container/small_vector.hpp>
-
-#include "volmesh/projector.hh"
+#include "volmesh/face_surfaces.hh"
 #include "volmesh/tet_mesh.hh"
 
 namespace maille::quality {
 
-/// Numbers of the projector's surfaces that a vertex lies on, ascending.
-using Surfaces = boost::container::small_vector<std::uint32_t, 3>;
+using volmesh::Surfaces;
 
 /// Where a vertex may go without a change to the geometry, the sets or the materials of the mesh.
 struct Freedom {

@@ -36,12 +36,12 @@ int edge_to_split(const TetMesh& mesh, CellHandle c) {
 BoundaryProjection::BoundaryProjection(TetMesh& mesh, const volmesh::Projector& projector, double min_shape)
     : mesh_(mesh),
       projector_(projector),
-      supports_(mesh, projector),
+      surfaces_of_(mesh, &projector),
       min_shape_(min_shape),
       tolerance_(1e-12 * projector.model_size) {}
 
 void BoundaryProjection::take_up(std::uint32_t first, std::span<const CellHandle> cells) {
-    for (auto& [vertex, support] : supports_.of_vertices_from(first, cells))
+    for (auto& [vertex, support] : supports_from(mesh_, surfaces_of_, first, cells))
         waiting_.push_back({vertex, std::move(support), Point::Zero()});
 }
 

@@ -49,7 +49,7 @@ class BoundaryProjection {
   private:
     struct Waiting {
         volmesh::VertexHandle vertex;
-        Support support;
+        volmesh::Surfaces support;
         volmesh::Point target;
         bool has_target = false;
         bool has_moved = false;
@@ -64,7 +64,7 @@ class BoundaryProjection {
 
     volmesh::TetMesh& mesh_;
     const volmesh::Projector& projector_;
-    Supports supports_;
+    volmesh::FaceSurfaces surfaces_of_;
     double min_shape_;
     double tolerance_;  ///< how near is on the surface
     std::vector<Waiting> waiting_;

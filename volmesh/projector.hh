@@ -15,7 +15,8 @@ namespace maille::volmesh {
 ///
 /// A surface is known by its number, its place in `surfaces`; the name there is the name of the face set
 /// whose members lie on it. Several face sets may lie on one surface, as a boundary and an inner interface
-/// do.
+/// do; and several surfaces may bear one name, their faces being in one set: face_surfaces.hh tells them
+/// apart.
 struct Projector {
     /// Name of the face set of each surface, by surface number.
     std::vector<std::string> surfaces;

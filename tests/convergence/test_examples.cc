@@ -1,28 +1,30 @@
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "modeler/build.hh"
 #include "refine/refine.hh"
+#include "volmesh/face_surfaces.hh"
+#include "volmesh/measure.hh"
 #include "volmesh/validate.hh"
 
 using namespace maille;
 
 namespace {
 
-/// The greatest distance of a face set's vertices from the surface that bears its name.
+/// The greatest distance of a face's vertices from the surface that it lies on.
 double distance_from_surfaces(const volmesh::TetMesh& mesh, const volmesh::Projector& projector) {
     double greatest = 0;
-    for (std::uint32_t surface = 0; surface < projector.surfaces.size(); ++surface) {
-        const auto set = mesh.find_set(projector.surfaces[surface], volmesh::EntityKind::face);
-        if (!set.is_valid()) continue;
-        for (const volmesh::HalffaceHandle hf : mesh.face_members(set))
+    volmesh::FaceSurfaces surfaces_of(mesh, &projector);
+    for (const volmesh::HalffaceHandle hf : mesh.halffaces())
+        for (const std::uint32_t surface : surfaces_of(hf))
             for (const volmesh::VertexHandle v : mesh.halfface_vertices(hf)) {
                 const auto target = projector.project({&surface, 1}, mesh.point(v));
                 REQUIRE(target.has_value());
                 greatest = std::max(greatest, (*target - mesh.point(v)).norm());
             }
-    }
     return greatest;
 }
 
@@ -48,5 +50,39 @@ TEST_CASE("Every example, refined, is valid and lies on its surfaces") {
         CHECK(result.projection.short_of_target.empty());
         CHECK(volmesh::validate(mesh).errors == std::vector<std::string>{});
         CHECK(distance_from_surfaces(mesh, projector) <= 1e-10 * projector.model_size);
+    }
+}
+
+TEST_CASE("Where solids of one name meet, the nodes of the curve lie on both") {
+    const auto model = modeler::parse_model(
+        "union() { name(\"ball\") sphere(1); name(\"ball\") translate([1,0,0]) sphere(1); }", "two balls");
+    const double cap = std::numbers::pi * 0.25 * (3 - 0.5) / 3;  // of height 1/2, of each ball, in the other
+    const double volume = 2 * (4 * std::numbers::pi / 3 - cap);
+    double error_before = 0;
+    for (const double size : {0.3, 0.15}) {
+        volmesh::TetMesh mesh = modeler::build(model, {.size = 0.5});
+        const auto projector = modeler::projector(model);
+        const auto result = refine::refine(mesh, refine::SizeField(size), {}, &projector);
+        CHECK(result.projection.short_of_target.empty());
+        CHECK(volmesh::validate(mesh).ok());
+        CHECK(distance_from_surfaces(mesh, projector) < 1e-10);
+
+        volmesh::FaceSurfaces surfaces_of(mesh, &projector);
+        std::vector<volmesh::Surfaces> support(mesh.n_vertices());
+        for (const volmesh::HalffaceHandle hf : mesh.boundary_halffaces())
+            for (const volmesh::VertexHandle v : mesh.halfface_vertices(hf))
+                volmesh::add(support[v.idx()], surfaces_of(hf));
+        std::size_t n_on_curve = 0;
+        for (const volmesh::VertexHandle v : mesh.vertices()) {
+            if (support[v.idx()].size() != 2) continue;
+            ++n_on_curve;
+            CHECK(std::abs(mesh.point(v).x() - 0.5) < 1e-10);
+            CHECK(std::abs(mesh.point(v).tail<2>().norm() - std::sqrt(0.75)) < 1e-10);
+        }
+        CHECK(static_cast<double>(n_on_curve) > 2 * std::numbers::pi * std::sqrt(0.75) / (1.5 * size));
+        const double error = volume - volmesh::volume(mesh);
+        CHECK(error > 0);
+        if (error_before > 0) CHECK(error_before / error > 3);
+        error_before = error;
     }
 }

@@ -42,17 +42,27 @@ Point random_point(std::mt19937& random, double reach) {
 
 }  // namespace
 
-TEST_CASE("Where two solids share a name, the nearer surface counts") {
+TEST_CASE("Where two solids share a name, each keeps surfaces of its own") {
     maille::modeler::Model model =
         model_of({make_cylinder(1, 0.5, 0.5, false),
                   make_cylinder(1, 0.5, 0.5, false, Eigen::Affine3d(Eigen::Translation3d(3, 0, 0)))});
     for (auto& primitive : model.primitives) primitive.name = "hole";
     const auto projector = maille::modeler::projector(model);
-    REQUIRE(projector.surfaces.size() == 6);
-    CHECK(std::ranges::count(projector.surfaces, "hole/side") == 1);
-    CHECK((*project(projector, {"hole/side"}, {0.4, 0, 0.3}) - Point(0.5, 0, 0.3)).norm() < 1e-15);
-    CHECK((*project(projector, {"hole/side"}, {2.7, 0, 0.3}) - Point(2.5, 0, 0.3)).norm() < 1e-15);
-    CHECK((*project(projector, {"hole/side", "hole/top"}, {3.6, 0, 0.9}) - Point(3.5, 0, 1)).norm() < 1e-12);
+    REQUIRE(projector.surfaces.size() == 12);
+    const auto of_name = [&](const char* name) {
+        std::vector<std::uint32_t> numbers;
+        for (std::uint32_t i = 0; i < projector.surfaces.size(); ++i)
+            if (projector.surfaces[i] == name) numbers.push_back(i);
+        REQUIRE(numbers.size() == 2);
+        return numbers;
+    };
+    const auto side = of_name("hole/side"), top = of_name("hole/top");
+    const auto project = [&](std::vector<std::uint32_t> numbers, const Point& p) {
+        return *projector.project(numbers, p);
+    };
+    CHECK((project({side[0]}, {0.4, 0, 0.3}) - Point(0.5, 0, 0.3)).norm() < 1e-15);
+    CHECK((project({side[1]}, {2.7, 0, 0.3}) - Point(2.5, 0, 0.3)).norm() < 1e-15);
+    CHECK((project({side[1], top[1]}, {3.6, 0, 0.9}) - Point(3.5, 0, 1)).norm() < 1e-12);
 }
 
 TEST_CASE("A projector names all surfaces, then the same as inner ones") {
