@@ -139,7 +139,7 @@ double slant_of(const Cone& cone) {
 int rim_count(const Circumference& rim, double slant) {
     const double least = rim.length() / std::max(8.0, rim.edges()) / 8;
     const double edges = std::max(rim.edges(), rim.length() / std::max(slant, least));
-    return 4 * to_count(edges / 4, 2);
+    return 4 * doubling_count(edges / 4, 2);
 }
 
 /// Heights of the rows, from 0 to 1: closer where the rows are shorter of edge.
@@ -158,11 +158,12 @@ std::vector<double> row_heights(const Cone& cone, const Sizing& sizing) {
 SurfaceSeed seed_surface(const Ellipsoid& shape, const Sizing& sizing) {
     const Icosahedron icosahedron = make_icosahedron();
     const double radius = std::cbrt(shape.semi_axes().prod());
-    constexpr double edge_angle = 1.1071487177940904;  // of the icosahedron: arctan 2
+    // As many equilateral triangles as a sphere of that radius has room for.
+    const double density = std::sqrt(4 * std::numbers::pi / (20 * std::numbers::sqrt3 / 4));
     // Fine enough for the sharpest bend too, so that no triangle of a flat one cuts through its rim.
     const double flatness = std::min(shape.semi_axes()[0] / shape.semi_axes()[2], 50.0);
     const double size = std::min(sizing.for_curvature(1 / radius), radius * std::numbers::pi / 4 / flatness);
-    const int n = to_count(edge_angle * radius / size, 2);
+    const int n = doubling_count(density * radius / size, 2);
 
     SurfaceSeed seed;
     std::map<std::array<std::uint32_t, 2>, std::uint32_t> edge_points;
@@ -211,8 +212,8 @@ SurfaceSeed seed_surface(const Torus& shape, const Sizing& sizing) {
     const double minor = scale * shape.minor(), major = scale * shape.major();
     const double size = sizing.for_curvature(1 / minor);
     // Every other row is half a step on, so that the number of rows is even.
-    const int rows = 2 * to_count(std::numbers::pi * minor / (size * std::numbers::sqrt3 / 2), 4);
-    const int count = 4 * to_count(std::numbers::pi * major / (2 * size), 2);
+    const int rows = 2 * doubling_count(std::numbers::pi * minor / (size * std::numbers::sqrt3 / 2), 4);
+    const int count = 4 * doubling_count(std::numbers::pi * major / (2 * size), 2);
     SurfaceSeed seed;
     std::vector<Row> row;
     for (int j = 0; j < rows; ++j) {

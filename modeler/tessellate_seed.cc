@@ -48,6 +48,16 @@ double Sizing::at(std::uint32_t face, const Point& p) const {
     return for_curvature(mean + std::sqrt(std::max(0.0, curvature.squaredNorm() / 2 - mean * mean)));
 }
 
+int doubling_count(double wanted, int least) {
+    int scale = 1;
+    while (wanted * wanted >= 5 * 6) {
+        wanted /= 2;
+        scale *= 2;
+    }
+    const int below = static_cast<int>(wanted);
+    return std::max(least, scale * (wanted * wanted < below * (below + 1) ? below : below + 1));
+}
+
 double thinnest_radius(const Ellipsoid& shape) {
     return shape.semi_axes()[2];
 }

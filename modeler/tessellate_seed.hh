@@ -43,6 +43,11 @@ class Sizing {
     double max_curvature_;
 };
 
+/// A count near the one wanted, within 15 %, that doubles where the wanted one does, but for the smallest: 1,
+/// 2, 3, 4, 5, 6, 8, 10, 12, 16, 20... With half the size a surface so divided has facets of just half the
+/// size, where simple rounding would let their errors fall by any factor from 2 to 8.
+int doubling_count(double wanted, int least);
+
 /// Half the thickness of a shape where it is thinnest.
 double thinnest_radius(const Ellipsoid& shape);
 double thinnest_radius(const Torus& shape);

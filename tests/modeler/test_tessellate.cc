@@ -1,5 +1,6 @@
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -73,7 +74,9 @@ TEST_CASE("Volumes and areas converge to the true ones, at second order") {
         CAPTURE(solid.name);
         const auto coarse = figures(solid.shape, 0.2), fine = figures(solid.shape, 0.05);
         const bool is_round = solid.shape->max_curvature(0) > 0;
-        const double factor = 8;  // 16 but for the rounding of edge counts
+        // 16 in the limit; near an apex the coarse one's eight edges to a circle are more than its size asks
+        // for.
+        const double factor = solid.name == std::string("cone") ? 9 : 14;
         for (auto [c, f, exact] : {std::tuple(coarse.volume, fine.volume, solid.volume),
                                    std::tuple(coarse.area, fine.area, solid.area)}) {
             if (is_round) {
@@ -84,6 +87,12 @@ TEST_CASE("Volumes and areas converge to the true ones, at second order") {
             }
         }
     }
+}
+
+TEST_CASE("With half the size a closed round surface has four times the triangles") {
+    for (const auto& shape : {make_sphere(1), make_torus(1, 0.4)})
+        for (double size = 0.05; size < 0.25; size *= 1.09)
+            CHECK(tessellate_shape(shape, size / 2).n_faces() == 4 * tessellate_shape(shape, size).n_faces());
 }
 
 TEST_CASE("Affine images: mirrors, stretches and shears") {
