@@ -70,6 +70,9 @@ class NamedSets {
         CombinationId cell = 0;
         std::array<CombinationId, 4> faces{};
         std::array<CombinationId, 6> edges{};
+        bool has_cell_sets_only() const {
+            return faces == std::array<CombinationId, 4>{} && edges == std::array<CombinationId, 6>{};
+        }
         auto operator<=>(const Row&) const = default;
     };
     using RowId = std::uint32_t;
@@ -102,9 +105,10 @@ class NamedSets {
     /// The sets whose rule is custom.
     std::span<const SetHandle> custom() const { return custom_; }
 
-  private:
+    /// What parts of an entity are in: the sets whose rule is not `none`.
     CombinationId inherited(CombinationId id);
 
+  private:
     std::vector<SetInfo> infos_;
     std::map<std::pair<std::string, EntityKind>, SetHandle> by_name_;
     std::vector<std::vector<SetHandle>> combinations_;

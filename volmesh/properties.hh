@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <typeinfo>
@@ -37,6 +38,17 @@ struct PropertyHeritage {
     PropertyHeritage(PropertyRule r) : rule(r) {}  // NOLINT: a rule is a heritage
 };
 
+/// Who gets the values of entities that a local edit takes out.
+struct Inheritance {
+    struct Heir {
+        std::uint32_t index;
+        std::uint32_t parent;  ///< one of the old ones; the invalid index for what has no parent
+        double measure;        ///< volume, area or length
+    };
+    std::vector<std::uint32_t> olds;
+    std::vector<Heir> heirs;
+};
+
 /// Values of one property, by entity index: the part that the mesh works with whatever the type.
 class BaseProperty {
   public:
@@ -53,6 +65,12 @@ class BaseProperty {
     virtual void push_between(std::uint32_t a, std::uint32_t b, double ratio) = 0;
     /// An entity at the end, the second child of `parent`, which becomes the first child.
     virtual void push_child(std::uint32_t parent, double ratio) = 0;
+    /// A vertex at the end, born among others; the weights sum to 1.
+    virtual void push_among(std::span<const std::uint32_t> parents, std::span<const double> weights) = 0;
+    /// Cells, faces or edges replace others: `copy` takes the parent's value, `share` divides the sum of the
+    /// old ones by measure, a function of the user's is asked where there is one old entity, again and again
+    /// (otherwise its values are copied).
+    virtual void pass_on(std::span<const Inheritance> inheritances) = 0;
     /// Keeps the values at these old indices, in this order.
     virtual void gather(const std::vector<std::uint32_t>& old_indices) = 0;
 
@@ -93,10 +111,13 @@ class Property final : public BaseProperty {
     void resize(std::size_t n) override { values_.resize(n, default_); }
     void push_between(std::uint32_t a, std::uint32_t b, double ratio) override;
     void push_child(std::uint32_t parent, double ratio) override;
+    void push_among(std::span<const std::uint32_t> parents, std::span<const double> weights) override;
+    void pass_on(std::span<const Inheritance> inheritances) override;
     void gather(const std::vector<std::uint32_t>& old_indices) override;
 
   private:
     Property(const Property&) = default;
+    std::vector<Stored> inherited(const Inheritance& inheritance) const;
 
     PropertyHeritage<T> heritage_;
     Stored default_;
@@ -132,6 +153,75 @@ void Property<T>::push_child(std::uint32_t parent, double ratio) {
     }
     values_[parent] = std::move(first);
     values_.push_back(std::move(second));
+}
+
+template <class T>
+void Property<T>::push_among(std::span<const std::uint32_t> parents, std::span<const double> weights) {
+    Stored value = default_;
+    if (heritage_.at_vertex) {
+        value = values_[parents[0]];
+        double weight = weights[0];
+        for (std::size_t i = 1; i < parents.size(); ++i) {
+            weight += weights[i];
+            value = heritage_.at_vertex(value, values_[parents[i]], weights[i] / weight);
+        }
+    } else if (heritage_.rule == PropertyRule::copy) {
+        value = values_[std::ranges::min(parents)];
+    } else if (heritage_.rule == PropertyRule::interpolate) {
+        if constexpr (is_linear) {
+            T sum = static_cast<T>(values_[parents[0]] * weights[0]);
+            for (std::size_t i = 1; i < parents.size(); ++i)
+                sum = static_cast<T>(sum + values_[parents[i]] * weights[i]);
+            value = sum;
+        }
+    }
+    values_.push_back(std::move(value));
+}
+
+template <class T>
+auto Property<T>::inherited(const Inheritance& inheritance) const -> std::vector<Stored> {
+    const auto& [olds, heirs] = inheritance;
+    double measure = 0;
+    for (const auto& heir : heirs) measure += heir.measure;
+    std::vector<Stored> values;
+    if (heritage_.at_children && olds.size() == 1) {
+        Stored rest = values_[olds[0]];
+        for (const auto& heir : heirs) {
+            if (values.size() + 1 == heirs.size()) break;
+            auto [first, second] = heritage_.at_children(rest, heir.measure / measure);
+            values.push_back(std::move(first));
+            rest = std::move(second);
+            measure -= heir.measure;
+        }
+        values.push_back(std::move(rest));
+        return values;
+    }
+    values.resize(heirs.size(), default_);
+    if (heritage_.at_children || heritage_.rule == PropertyRule::copy) {
+        for (std::size_t i = 0; i < heirs.size(); ++i)
+            if (heirs[i].parent != VertexHandle::invalid_index) values[i] = values_[heirs[i].parent];
+    } else if (heritage_.rule == PropertyRule::share && !olds.empty()) {
+        if constexpr (is_linear) {
+            T rest = values_[olds[0]];
+            for (std::size_t i = 1; i < olds.size(); ++i) rest = static_cast<T>(rest + values_[olds[i]]);
+            for (std::size_t i = 0; i + 1 < heirs.size(); ++i) {
+                values[i] = static_cast<T>(rest * (heirs[i].measure / measure));
+                rest = static_cast<T>(rest - values[i]);
+                measure -= heirs[i].measure;
+            }
+            values.back() = rest;
+        }
+    }
+    return values;
+}
+
+template <class T>
+void Property<T>::pass_on(std::span<const Inheritance> inheritances) {
+    std::vector<std::vector<Stored>> all;
+    for (const Inheritance& inheritance : inheritances) all.push_back(inherited(inheritance));
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = 0; k < all[i].size(); ++k)
+            values_[inheritances[i].heirs[k].index] = std::move(all[i][k]);
 }
 
 template <class T>

@@ -25,6 +25,8 @@ template <class H>
 class EntityRange;
 template <class H>
 struct SmartHandle;
+struct Retriangulation;
+struct Cavity;
 
 /// Cells met by a local query, in an order that depends on the mesh alone.
 using CellList = boost::container::small_vector<CellHandle, 48>;
@@ -192,6 +194,12 @@ class TetMesh {
     /// local_edge) gives them.
     VertexHandle split_edge(CellHandle c, int local_edge, double ratio, const CellList& ring);
 
+    /// Takes cells out and fills their place with others; retriangulation.hh says how and what is kept.
+    void replace_cells(const Retriangulation& change);
+    /// A vertex without cells, at the weighted mean of others and with values between theirs by the
+    /// properties' rules. The weights sum to 1.
+    VertexHandle add_vertex(std::span<const VertexHandle> parents, std::span<const double> weights);
+
     /// Marks it deleted: its neighbours get a boundary; its vertices stay. Its index is free after
     /// garbage_collection().
     void delete_cell(CellHandle c);
@@ -338,6 +346,13 @@ class TetMesh {
     void split_face_numbers(const Split& split);
     void split_pinches(const Split& split);
     void split_sets(const Split& split);
+    Cavity look_into(const Retriangulation& change) const;
+    void look_for_hinges(const Retriangulation& change, Cavity& cavity) const;
+    void relink(const Retriangulation& change, Cavity& cavity);
+    void give_rows(const Retriangulation& change, const Cavity& cavity);
+    void pass_on_cell_values(const Retriangulation& change, const Cavity& cavity);
+    void repair_hinges(const Retriangulation& change, Cavity& cavity);
+
     CombinationId born_combination(const Split& split);
     void apply_custom_rules(const Split& split);
 
