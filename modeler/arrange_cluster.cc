@@ -79,7 +79,7 @@ class ClusterFinder {
 
   private:
     bool continues(std::uint32_t i, std::uint32_t j, std::uint64_t edge) const {
-        if (!touched_[i] || !touched_[j]) return false;
+        if (!touched_[i] || !touched_[j] || std::ranges::binary_search(contacts_.edges, edge)) return false;
         const Facet &f = complex_.facets[i], &g = complex_.facets[j];
         if (f.surface != g.surface || f.front != g.front || f.back != g.back) return false;
         const auto a = static_cast<std::uint32_t>(edge >> 32), b = static_cast<std::uint32_t>(edge);

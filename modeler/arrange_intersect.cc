@@ -45,7 +45,12 @@ class Intersector {
         add(segment, j);
     }
 
-    Contacts take() { return std::move(contacts_); }
+    Contacts take() {
+        std::ranges::sort(contacts_.edges);
+        contacts_.edges.erase(std::unique(contacts_.edges.begin(), contacts_.edges.end()),
+                              contacts_.edges.end());
+        return std::move(contacts_);
+    }
 
   private:
     const Corners& corners(std::uint32_t facet) const { return complex_.facets[facet].vertices; }
@@ -156,9 +161,11 @@ class Intersector {
 
     void add(const Contacts::Segment& segment, std::uint32_t facet) {
         const Corners& c = corners(facet);
-        const bool is_own =
-            std::ranges::all_of(segment, [&](std::uint32_t p) { return std::ranges::find(c, p) != c.end(); });
-        if (!is_own) contacts_.segments[facet].push_back(segment);
+        const auto is_corner = [&](std::uint32_t p) { return std::ranges::find(c, p) != c.end(); };
+        if (!std::ranges::all_of(segment, is_corner))
+            contacts_.segments[facet].push_back(segment);
+        else if (segment[0] != segment[1])
+            contacts_.edges.push_back(edge_key(segment[0], segment[1]));
     }
 
     const FacetComplex& complex_;

@@ -17,6 +17,7 @@ struct Contacts {
         std::array<std::uint32_t, 2>;  ///< numbers in the registry; twice the same for a single point
 
     std::vector<std::vector<Segment>> segments;  ///< on each facet; not its own edges and corners
+    std::vector<std::uint64_t> edges;            ///< of facets, along which others meet them; rising
     std::vector<Pair> coplanar;                  ///< facets in one plane that meet
     std::vector<bool> degenerate;                ///< facets with no area
 };

@@ -34,6 +34,38 @@ inline ClosedSurface box(const Vector3d& low, const Vector3d& high, std::uint32_
     return s;
 }
 
+/// A box with its faces cut along the given coordinates, which rise.
+inline ClosedSurface grid_box(const std::array<std::vector<double>, 3>& lines,
+                              std::uint32_t first_surface = 0) {
+    ClosedSurface s;
+    std::map<std::array<std::size_t, 3>, std::uint32_t> numbers;
+    const auto point = [&](std::array<std::size_t, 3> at) {
+        const auto [entry, is_new] = numbers.try_emplace(at, std::uint32_t(s.points.size()));
+        if (is_new) s.points.emplace_back(lines[0][at[0]], lines[1][at[1]], lines[2][at[2]]);
+        return entry->second;
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const bool high : {false, true}) {
+            const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+            for (std::size_t i = 0; i + 1 < lines[u].size(); ++i)
+                for (std::size_t j = 0; j + 1 < lines[v].size(); ++j) {
+                    std::array<std::array<std::size_t, 3>, 4> corners{};
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        corners[k][axis] = high ? lines[axis].size() - 1 : 0;
+                        corners[k][u] = i + (k == 1 || k == 2);
+                        corners[k][v] = j + (k > 1);
+                    }
+                    if (!high) std::swap(corners[1], corners[3]);
+                    const auto a = point(corners[0]), b = point(corners[1]), c = point(corners[2]),
+                               d = point(corners[3]);
+                    s.triangles.push_back({a, b, c});
+                    s.triangles.push_back({a, c, d});
+                    s.surfaces.insert(s.surfaces.end(), 2, first_surface + std::uint32_t(2 * axis + high));
+                }
+        }
+    return s;
+}
+
 inline ClosedSurface sphere(const Vector3d& center, double radius, int subdivisions,
                             std::uint32_t surface = 0) {
     ClosedSurface s;
