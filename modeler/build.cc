@@ -9,6 +9,7 @@
 #include "modeler/merge_operand.hh"
 #include "modeler/parallel.hh"
 #include "modeler/phase_timer.hh"
+#include "modeler/projector_touch.hh"
 #include "modeler/tessellate.hh"
 #include "modeler/tetrahedralize.hh"
 #include "volmesh/error.hh"
@@ -21,15 +22,15 @@ using volmesh::EntityKind;
 using volmesh::SetHandle;
 using volmesh::TetMesh;
 
-double default_size(const Model& model) {
+double diagonal(const Model& model) {
     Eigen::AlignedBox3d box;
     for (const Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
-    return box.diagonal().norm() / 20;
+    return box.diagonal().norm();
 }
 
 std::vector<double> sizes_of_primitives(const Model& model, const BuildOptions& options) {
     if (options.size < 0) throw InputError(fmt::format("the size has to be positive, not {}", options.size));
-    const double general = options.size > 0 ? options.size : default_size(model);
+    const double general = options.size > 0 ? options.size : diagonal(model) / 20;
     std::vector<double> sizes;
     for (const Primitive& primitive : model.primitives)
         sizes.push_back(primitive.size > 0 ? primitive.size : general);
@@ -111,6 +112,12 @@ RemeshGeometry remesh_geometry(const Model& model, std::span<const Operand> oper
         return std::pair(primitives[numbered[surface].primitive].shape.get(), numbered[surface].face);
     };
     return {.project = surface_projection(model),
+            .touch =
+                [=, size = diagonal(model)](std::uint32_t a, std::uint32_t b, const Point& p) {
+                    const auto [shape_a, face_a] = face(a);
+                    const auto [shape_b, face_b] = face(b);
+                    return touching_point({shape_a, face_a}, {shape_b, face_b}, p, size);
+                },
             .normal =
                 [=](std::uint32_t surface, const Point& p) {
                     const auto [shape, number] = face(surface);

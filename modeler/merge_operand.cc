@@ -58,6 +58,11 @@ class Merger {
                     if (std::ranges::find(surfaces, shell) != surfaces.end()) return std::nullopt;
                     return geometry.project(surfaces, p);
                 },
+                .touch = [=](std::uint32_t a, std::uint32_t b,
+                             const Eigen::Vector3d& p) -> std::optional<Eigen::Vector3d> {
+                    if (a == shell || b == shell) return std::nullopt;
+                    return geometry.touch(a, b, p);
+                },
                 .normal = [=](std::uint32_t surface, const Eigen::Vector3d& p) -> Eigen::Vector3d {
                     return surface == shell ? Eigen::Vector3d::UnitZ().eval() : geometry.normal(surface, p);
                 },

@@ -19,6 +19,9 @@ struct RemeshGeometry {
     std::function<std::optional<Eigen::Vector3d>(std::span<const std::uint32_t> surfaces,
                                                  const Eigen::Vector3d& p)>
         project;
+    /// A point near `p` where two of the surfaces touch, or nothing. Their curves can only meet there.
+    std::function<std::optional<Eigen::Vector3d>(std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& p)>
+        touch = [](std::uint32_t, std::uint32_t, const Eigen::Vector3d&) { return std::nullopt; };
     /// Unit normal of the surface at its point nearest to `p`. Which way it points must not change along the
     /// surface; a facet's own normal may be opposite.
     std::function<Eigen::Vector3d(std::uint32_t surface, const Eigen::Vector3d& p)> normal;

@@ -201,9 +201,15 @@ std::optional<Vec3> nearest(const Session& session, std::span<const std::uint32_
     } else {
         targets = without_coplanar(session.geometry, surfaces, p);
     }
+    const auto in_reach = [&](const std::optional<Vec3>& found) {
+        return found && found->allFinite() && (*found - p).norm() <= reach;
+    };
+    // Two smooth surfaces have no other corners than where they touch.
+    if (kind == VertexKind::corner && targets.size() == 2)
+        if (const auto found = session.geometry.touch(targets[0], targets[1], p); in_reach(found))
+            return found;
     const std::optional<Vec3> found = session.geometry.project(targets, p);
-    if (!found || !found->allFinite() || (*found - p).norm() > reach) return std::nullopt;
-    return found;
+    return in_reach(found) ? found : std::nullopt;
 }
 
 Net make_net(const FacetComplex& complex, const RemeshGeometry& geometry) {

@@ -246,6 +246,21 @@ TEST_CASE("a deep tree") {
     CHECK(volmesh::volume(mesh) == exactly(10 - 9 * 0.4 * 0.5));
 }
 
+TEST_CASE("where two surfaces touch and their curves cross there is a vertex") {
+    const auto pipe = [](const char* name, const Eigen::Vector3d& axis) {
+        const Eigen::Affine3d map(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis));
+        return Primitive{make_cylinder(3, 1, 1, true, map), name, "", 0};
+    };
+    const Model model{{pipe("a", {0, 0, 1}), pipe("b", {1, 0, 0})}, pair_of(Operation::intersection)};
+    for (const double size : {0.4, 0.25}) {
+        CAPTURE(size);
+        const TetMesh mesh = build(model, {.size = size});
+        for (const Eigen::Vector3d& touch : {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
+            CHECK(std::ranges::any_of(mesh.points(),
+                                      [&](const auto& p) { return (p - touch).norm() < 1e-11; }));
+    }
+}
+
 TEST_CASE("everything can be meshed anew") {
     BuildReport report;
     const Model model{{box("a", {0, 0, 0}, {1, 1, 1}), ball("b", {1, 1, 1}, 0.5)},

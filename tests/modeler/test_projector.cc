@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "modeler/model.hh"
+#include "modeler/projector_touch.hh"
 #include "surface_checks.hh"
 #include "volmesh/error.hh"
 
@@ -186,6 +187,34 @@ TEST_CASE("A plane that touches a cylinder meets it in a line") {
     CHECK(image->x() == 0.5);
     CHECK(std::abs(image->y()) < 1e-5);
     CHECK(image->z() == doctest::Approx(0.4).epsilon(1e-12));
+}
+
+TEST_CASE("The point where two curved surfaces touch is found from near it") {
+    constexpr unsigned seed = 11;
+    MESSAGE("seed " << seed);
+    std::mt19937 random(seed);
+    const Eigen::Affine3d lying(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitY()));
+    const Eigen::Affine3d beside(Eigen::Translation3d(1, 0, 0));
+    const auto upright = make_cylinder(4, 1, 1, true), crossing = make_cylinder(4, 1, 1, true, lying);
+    const auto ball = make_sphere(2), off_centre = make_cylinder(6, 1, 1, true, beside);
+    const auto touch = [](const auto& a, const auto& b, const Point& p) {
+        return touching_point({a.get(), 0}, {b.get(), 0}, p, 5);
+    };
+    for (int round = 0; round < 100; ++round) {
+        const Point shift = random_point(random, 0.3);
+        const auto steinmetz = touch(upright, crossing, Point(0, -1, 0) + shift);
+        REQUIRE(steinmetz);
+        CHECK((*steinmetz - Point(0, -1, 0)).norm() < 5e-12);
+        const auto viviani = touch(ball, off_centre, Point(2, 0, 0) + shift);
+        REQUIRE(viviani);
+        CHECK((*viviani - Point(2, 0, 0)).norm() < 5e-12);
+    }
+    // Along the equator.
+    const auto along = touch(make_sphere(1), upright, {0.9, 0.2, 0.1});
+    REQUIRE(along);
+    CHECK(along->head<2>().norm() == doctest::Approx(1).epsilon(1e-12));
+    CHECK(std::abs(along->z()) < 1e-12);
+    CHECK_FALSE(touch(ball, upright, {1, 0, 1.7}));
 }
 
 TEST_CASE("Where surfaces have no common point there is none") {
