@@ -1,38 +1,52 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
+#include "quality/report.hh"
 #include "volmesh/projector.hh"
 #include "volmesh/tet_mesh.hh"
 
 namespace maille::quality {
 
 struct ImproveOptions {
-    int max_passes = 20;
-    /// Vertices whose worst cell has at least this gamma stay where they are.
-    double good_enough = 0.5;
+    int max_passes = 12;
+    /// Cells whose objective (objective.hh) is at least this are left as they are; .34 stands for angles of
+    /// 20 and 146 degrees and beta = .4.
+    double good_enough = 0.34;
+    /// Whether connectivity may change: by flips, removal of edges and faces, edge collapse and edge split.
+    bool may_change_cells = true;
+    /// Sweeps over all vertices that may move, to raise the mean of beta.
+    int mean_sweeps = 2;
+    /// Wanted edge lengths; a move makes no cell longer than `ratio` times the size at its centroid, unless
+    /// it takes the place of one that is as far beyond.
+    const WantedSize* size = nullptr;
+    double ratio = 1.5;
 };
 
 struct ImproveResult {
     int passes = 0;
-    std::size_t moves = 0;
-    double worst_before = 0, worst_after = 0;  ///< least gamma of the mesh
+    std::size_t moves = 0, edge_removals = 0, face_removals = 0, collapses = 0, splits = 0;
+    double worst_before = 0, worst_after = 0;  ///< least objective of the mesh
+
+    std::size_t edits() const { return moves + edge_removals + face_removals + collapses + splits; }
 };
 
-/// Moves vertices so that the worst cells round them get better.
+/// Betters the worst cells of a mesh: moves vertices, removes edges and faces, collapses and splits edges,
+/// the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R. Shewchuk, "Aggressive
+/// tetrahedral mesh improvement", 2007.
 ///
-/// A vertex goes to where the least gamma of its cells is greatest nearby (steepest ascent of that minimum,
-/// as in L. Freitag, C. Ollivier-Gooch, "Tetrahedral mesh improvement using swapping and smoothing", IJNME
-/// 40, 1997). No move lowers the least gamma or the least sigma of the cells at the vertex, so neither of the
-/// mesh's goes down, and an inverted cell may come right but none arises.
+/// No move lowers the least objective of the cells that it changes, so the mesh's least never goes down; an
+/// inverted cell may come right but none arises. Sets and properties pass on by their rules, the volume of
+/// each cell set and the area of each flat face set stay. Vertices keep to their geometric support: the
+/// surfaces that their faces' sets name, where `projector` knows these; else the planes of their faces, where
+/// these are flat; else they stay. So do vertices in a vertex set, on an edge of an edge set, and where two
+/// different parts of one surface meet. Faces and curves come no farther from the true surfaces, measured in
+/// their middles.
 ///
-/// Interior vertices move freely. Those on the boundary, on faces of a face set or between cells of different
-/// sets move only along their geometric support, the surfaces that their faces' sets name, where `projector`
-/// knows these surfaces; without one they stay. So do vertices in a vertex set, on an edge of an edge set,
-/// and where two different parts of one surface meet. Connectivity, sets and properties don't change. The
-/// result depends on the mesh alone.
-///
-/// Whatever the projector throws passes through; the mesh is then valid and partly improved.
+/// Cells and vertices are renumbered (garbage_collection()) if connectivity changes. The result depends on
+/// the mesh and the options alone. Whatever the projector or the size throws passes through; the mesh is then
+/// valid and partly improved.
 ImproveResult improve(volmesh::TetMesh& mesh, const ImproveOptions& options = {},
                       const volmesh::Projector* projector = nullptr);
 

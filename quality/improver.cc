@@ -1,0 +1,128 @@
+#include "quality/improver.hh"
+
+#include <algorithm>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "quality/smooth.hh"
+
+namespace maille::quality {
+
+using volmesh::TetMesh;
+
+Improver::Improver(TetMesh& mesh, const ImproveOptions& options, const volmesh::Projector* projector)
+    : mesh_(mesh),
+      options_(options),
+      projector_(projector),
+      surfaces_of_(mesh, projector),
+      freedoms_(mesh, projector),
+      freedom_at_(mesh.n_vertices(), 0),
+      known_freedoms_(2),
+      quality_(mesh.n_cells(), 1),
+      tried_(mesh.n_cells(), 0),
+      changed_(mesh.n_vertices(), 1) {
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mesh.n_cells(), 4096), [&](const auto& range) {
+        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+            if (mesh.is_deleted(CellHandle(i))) continue;
+            const auto p = mesh.cell_points(CellHandle(i));
+            quality_[i] = objective(p[0], p[1], p[2], p[3]);
+        }
+    });
+    result_.worst_before = worst();
+}
+
+double Improver::worst() const {
+    return quality_.empty() ? 1 : *std::ranges::min_element(quality_);
+}
+
+std::size_t Improver::pass(bool all_moves) {
+    std::vector<std::uint32_t> bad;
+    for (std::uint32_t i = 0; i < mesh_.n_cells(); ++i)
+        if (quality_[i] < options_.good_enough) bad.push_back(i);
+    std::ranges::sort(bad, [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(quality_[a], a) < std::pair(quality_[b], b);
+    });
+    const std::size_t before = result_.edits();
+    for (std::uint32_t i : bad) {
+        const CellHandle c(i);
+        if (mesh_.is_deleted(c) || quality_[i] >= options_.good_enough) continue;
+        const auto has_changed = [&](VertexHandle v) { return changed_[v.idx()] > tried_[i]; };
+        if (!all_moves && !std::ranges::any_of(mesh_.cell_vertices(c), has_changed)) continue;
+        tried_[i] = now_;
+        improve_cell(c, all_moves);
+    }
+    ++result_.passes;
+    return result_.edits() - before;
+}
+
+bool Improver::improve_cell(CellHandle c, bool all_moves) {
+    if (options_.may_change_cells && flip(c)) return true;
+    bool has_moved = false;
+    for (VertexHandle v : mesh_.cell_vertices(c)) {
+        has_moved |= smooth(v);
+        if (quality_[c.idx()] >= options_.good_enough) return true;
+    }
+    if (has_moved || !all_moves || !options_.may_change_cells) return has_moved;
+    return collapse(c) || split(c);
+}
+
+double Improver::quality(const CellList& cells) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (CellHandle c : cells) least = std::min(least, quality_[c.idx()]);
+    return least;
+}
+
+const Freedom& Improver::freedom(VertexHandle v) {
+    std::uint32_t& at = freedom_at_[v.idx()];
+    if (at == 0) {
+        Freedom found = freedoms_(v, mesh_.vc_range(v));
+        at = found.is_free() ? 1 : static_cast<std::uint32_t>(known_freedoms_.size());
+        if (!found.is_free()) known_freedoms_.push_back(std::move(found));
+    }
+    return known_freedoms_[at];
+}
+
+Bases Improver::bases_at(VertexHandle v, const CellList& cells) const {
+    Bases bases;
+    for (CellHandle c : cells) {
+        const auto face = mesh_.halfface_vertices(TetMesh::halfface(c, mesh_.local_vertex(c, v)));
+        bases.push_back({mesh_.point(face[0]), mesh_.point(face[1]), mesh_.point(face[2])});
+    }
+    return bases;
+}
+
+void Improver::settle(const CellList& changed, std::uint32_t first_new) {
+    ++now_;
+    quality_.resize(mesh_.n_cells(), 1);
+    tried_.resize(mesh_.n_cells(), 0);
+    changed_.resize(mesh_.n_vertices(), 0);
+    freedom_at_.resize(mesh_.n_vertices(), 0);
+    const auto measure = [&](CellHandle c) {
+        quality_[c.idx()] = 1;
+        if (mesh_.is_deleted(c)) return;
+        const auto p = mesh_.cell_points(c);
+        quality_[c.idx()] = objective(p[0], p[1], p[2], p[3]);
+        for (VertexHandle v : mesh_.cell_vertices(c)) changed_[v.idx()] = now_;
+    };
+    for (CellHandle c : changed) measure(c);
+    for (std::uint32_t i = first_new; i < mesh_.n_cells(); ++i) measure(CellHandle(i));
+}
+
+double Improver::excess(const std::array<Point, 4>& cell) const {
+    if (!options_.size) return 1;
+    const Point centroid = (cell[0] + cell[1] + cell[2] + cell[3]) / 4;
+    double longest = 0;
+    for (const auto& [i, j] : volmesh::tet::edge_vertices)
+        longest = std::max(longest, (cell[i] - cell[j]).squaredNorm());
+    return std::max(1.0, std::sqrt(longest) / (options_.ratio * (*options_.size)(centroid)));
+}
+
+double Improver::excess(const CellList& cells) const {
+    double worst = 1;
+    if (!options_.size) return worst;
+    for (CellHandle c : cells) worst = std::max(worst, excess(mesh_.cell_points(c)));
+    return worst;
+}
+
+}  // namespace maille::quality

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "quality/improve.hh"
+#include "quality/objective.hh"
+#include "quality/smooth.hh"
+#include "quality/support.hh"
+#include "quality/surface_error.hh"
+#include "volmesh/edge_removal.hh"
+
+namespace maille::quality {
+
+/// A mesh under improvement: the moves that better a bad cell, each applied only if the least objective of
+/// the cells that it changes goes up.
+class Improver {
+  public:
+    Improver(volmesh::TetMesh& mesh, const ImproveOptions& options, const volmesh::Projector* projector);
+
+    double worst() const;
+    /// Tries all cells that are not good enough and near which something has changed since they were last
+    /// tried, the worst first. Vertices are added and taken out only with `all_moves`. Returns the number of
+    /// moves.
+    std::size_t pass(bool all_moves);
+    /// Moves vertices towards the middle of their cells where that raises the sum of beta round them, but
+    /// lowers no least objective below good_enough.
+    void raise_mean();
+
+    const ImproveResult& result() const { return result_; }
+
+  private:
+    using CellHandle = volmesh::CellHandle;
+    using CellList = volmesh::CellList;
+    using HalffaceHandle = volmesh::HalffaceHandle;
+    using VertexHandle = volmesh::VertexHandle;
+
+    // improver.cc
+    bool improve_cell(CellHandle c, bool all_moves);
+    double quality(const CellList& cells) const;
+    const Freedom& freedom(VertexHandle v);
+    Bases bases_at(VertexHandle v, const CellList& cells) const;
+    void settle(const CellList& changed, std::uint32_t first_new);
+    /// How far the longest edge is beyond what the size allows, at least 1; 1 where no size is given.
+    double excess(const std::array<Point, 4>& cell) const;
+    double excess(const CellList& cells) const;
+
+    // improver_smooth.cc
+    bool smooth(VertexHandle v);
+    IsAllowed allowed_places(VertexHandle v, const CellList& cells, const Freedom& freedom);
+
+    // improver_flips.cc
+    struct EdgeRemoval {
+        volmesh::EdgeRing ring;
+        std::vector<volmesh::RingTriangle> triangles;
+        double quality;
+    };
+    struct FaceRemoval {
+        std::vector<HalffaceHandle> faces;
+        double quality;
+    };
+    bool flip(CellHandle c);
+    std::optional<EdgeRemoval> edge_removal(CellHandle c, int edge, double floor);
+    std::optional<FaceRemoval> face_removal(CellHandle c, int face, double floor);
+    double removal_tolerance(const EdgeRemoval& removal);
+    bool keeps_size(const EdgeRemoval& removal) const;
+
+    // improver_vertices.cc
+    struct Collapse {
+        VertexHandle gone, heir;
+        double quality;
+    };
+    bool collapse(CellHandle c);
+    std::optional<Collapse> collapse_of(VertexHandle gone, VertexHandle heir, double floor);
+    bool split(CellHandle c);
+    bool split(CellHandle c, int edge);
+
+    volmesh::TetMesh& mesh_;
+    const ImproveOptions& options_;
+    const volmesh::Projector* projector_;
+    volmesh::FaceSurfaces surfaces_of_;
+    Freedoms freedoms_;
+    /// Place in known_freedoms_ by vertex; 0: not known yet, 1: free.
+    std::vector<std::uint32_t> freedom_at_;
+    std::deque<Freedom> known_freedoms_;
+    std::vector<double> quality_;         ///< of each cell
+    std::vector<std::uint32_t> tried_;    ///< when each cell was last tried
+    std::vector<std::uint32_t> changed_;  ///< when a cell at each vertex last changed
+    std::uint32_t now_ = 1;
+    ImproveResult result_;
+};
+
+}  // namespace maille::quality
