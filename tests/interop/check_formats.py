@@ -1,8 +1,10 @@
-"""Checks our mesh files against meshio and Gmsh: what we write they read, with the same groups, and the other way
-round. Usage: check_formats.py MESH_PROBE meshio|gmsh. Exit status 77 where that program isn't installed."""
+"""Checks our mesh files against meshio, Gmsh and CalculiX: what we write they read, with the same groups, and the other way
+round. Usage: check_formats.py MESH_PROBE meshio|gmsh|ccx. Exit status 77 where that program isn't installed."""
+import importlib.util
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -37,6 +39,10 @@ def set_sizes(facts):
 def volume_of(points, tets):
     a, b, c, d = (points[tets[:, i]] for i in range(4))
     return float(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a).sum() / 6)
+
+
+def is_installed(partner):
+    return bool(shutil.which(partner) or importlib.util.find_spec(partner))
 
 
 # ---- meshio ---------------------------------------------------------------------------------------------------------
@@ -185,14 +191,47 @@ def check_gmsh(folder, facts):
     gmsh.finalize()
 
 
+# ---- CalculiX -------------------------------------------------------------------------------------------------------
+YOUNG, POISSON, PULL = 210e3, 0.3, 42.0
+
+
+def check_ccx(folder, facts):
+    """A cube on rollers, pulled at one side: linear elements have the exact solution. Loads, supports and material
+    come from the mesh's sets by name, as the program's user would write them."""
+    rollers = "".join(f"ROLLER/{axis}-, {k}, {k}, 0\n" for k, axis in ((1, "X"), (2, "Y"), (3, "Z")))
+    (folder / "job.inp").write_text(f"""*INCLUDE, INPUT=rollers.inp
+*MATERIAL, NAME=ANY
+*ELASTIC
+{YOUNG}, {POISSON}
+*SOLID SECTION, ELSET=steel, MATERIAL=ANY
+*STEP
+*STATIC
+*BOUNDARY
+{rollers}*DSLOAD
+plate/x+, P, {-PULL}
+*NODE PRINT, NSET=far_vertices
+U
+*END STEP
+""")
+    done = subprocess.run(["ccx", "job"], cwd=folder, capture_output=True, text=True)
+    if done.returncode != 0 or "*ERROR" in done.stdout:
+        sys.exit(f"CalculiX failed: {done.stdout[-2000:]}")
+    rows = [line.split() for line in (folder / "job.dat").read_text().splitlines()]
+    moved = [[float(x) for x in row[1:]] for row in rows if len(row) == 4 and row[0].isdigit()]
+    same("far vertices in CalculiX", len(moved), 16)
+    for ux, uy, uz in moved:
+        if not math.isclose(ux, PULL / YOUNG, rel_tol=1e-5):
+            sys.exit(f"the cube grows by {ux} instead of {PULL / YOUNG}")
+        if not (-POISSON * PULL / YOUNG * 1.00001 <= min(uy, uz) and max(uy, uz) <= 1e-12):
+            sys.exit(f"the cube narrows by {uy}, {uz}")
+
+
 if __name__ == "__main__":
     PROBE, PARTNER = sys.argv[1:]
-    try:
-        __import__(PARTNER)
-    except ImportError:
+    if not is_installed(PARTNER):
         print(f"skipped: {PARTNER} isn't installed")
         sys.exit(77)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         facts = json.loads(probe("write", folder))
-        {"meshio": check_meshio, "gmsh": check_gmsh}[PARTNER](folder, facts)
+        {"meshio": check_meshio, "gmsh": check_gmsh, "ccx": check_ccx}[PARTNER](folder, facts)

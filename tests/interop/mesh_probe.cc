@@ -1,7 +1,8 @@
 // For the checks against other programs: `mesh_probe write FOLDER` writes a mesh in the formats that they
 // read and tells what is in it, `mesh_probe info FILE` tells what is in a file, `mesh_probe convert IN OUT`
 // what it says.
-#include <cstring>
+#include <algorithm>
+#include <array>
 #include <random>
 
 #include <fmt/core.h>
@@ -60,6 +61,28 @@ void add_cell_fields(TetMesh& mesh) {
     }
 }
 
+/// A cube on rollers at x, y, z = 0, to be pulled at x = 1.
+TetMesh cube_on_rollers() {
+    TetMesh mesh = test::kuhn_cube(3);
+    const std::array rollers{mesh.add_set("roller/x-", EntityKind::vertex),
+                             mesh.add_set("roller/y-", EntityKind::vertex),
+                             mesh.add_set("roller/z-", EntityKind::vertex)};
+    const SetHandle far_vertices = mesh.add_set("far vertices", EntityKind::vertex);
+    const SetHandle pulled = mesh.add_set("plate/x+", EntityKind::face);
+    const SetHandle steel = mesh.add_set("steel", EntityKind::cell);
+    for (auto v : mesh.vertices()) {
+        for (int k = 0; k < 3; ++k)
+            if (mesh.point(v)[k] == 0) mesh.insert(rollers[static_cast<std::size_t>(k)], v);
+        if (mesh.point(v).x() == 1) mesh.insert(far_vertices, v);
+    }
+    for (auto c : mesh.cells()) mesh.insert(steel, c);
+    for (HalffaceHandle hf : mesh.halffaces())
+        if (std::ranges::all_of(mesh.halfface_vertices(hf),
+                                [&](VertexHandle v) { return mesh.point(v).x() == 1; }))
+            mesh.insert(pulled, hf);
+    return mesh;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -71,6 +94,7 @@ int main(int argc, char** argv) {
             // meshio 5.0 reads no field of cells in 2.2, not even its own.
             write_mesh(mesh, folder / "sample22.msh", {"msh22"});
             add_cell_fields(mesh);
+            write_mesh(cube_on_rollers(), folder / "rollers.inp");
             write_mesh(mesh, folder / "sample.vtu");
             write_mesh(mesh, folder / "sample41.msh");
             for (const char* surface : {"sample.stl", "sample.obj", "sample.off", "sample.ply"})

@@ -41,10 +41,11 @@ struct Way {
 };
 
 const std::vector<Way>& ways() {
-    static const std::vector<Way> all{
-        {"a.vtu", "a.vtu", ""},   {"b.msh", "b.msh", ""},        {"c.msh", "c.msh", "msh22"},
-        {"d.mesh", "d.mesh", ""}, {"d.mesh", "d.sets.json", ""}, {"e.node", "e.node", ""},
-        {"e.node", "e.ele", ""},  {"e.node", "e.face", ""},      {"e.node", "e.edge", ""}};
+    static const std::vector<Way> all{{"a.vtu", "a.vtu", ""},        {"b.msh", "b.msh", ""},
+                                      {"c.msh", "c.msh", "msh22"},   {"d.mesh", "d.mesh", ""},
+                                      {"d.mesh", "d.sets.json", ""}, {"e.node", "e.node", ""},
+                                      {"e.node", "e.ele", ""},       {"e.node", "e.face", ""},
+                                      {"e.node", "e.edge", ""},      {"f.inp", "f.inp", ""}};
     return all;
 }
 
@@ -155,6 +156,14 @@ TEST_CASE("what is wrong is named with its place") {
     require_error(mesh, medit + "Hexahedra\n1\n", "Hexahedra cannot be read");
     put(folder / "a.ele", "0 10 0\n");
     require_error(folder / "a.node", "0 3 0 0\n", "quadratic tetrahedra");
+    const Path inp = folder / "a.inp";
+    require_error(inp, "*NODE\n1, 0, 0\n", "a.inp:2: a node has a number and three coordinates");
+    require_error(inp, "*NODE\n1, 0, 0, inf\n", "a.inp:2: a coordinate is not a finite number");
+    require_error(inp, "** a comment\n*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n",
+                  "a.inp:5: there is no node 2");
+    require_error(inp, "*ELEMENT, TYPE=C3D10\n", "a.inp:1: elements of type C3D10 cannot be read");
+    require_error(inp, "*ELEMENT\n", "a.inp:1: *ELEMENT needs TYPE=");
+    require_error(inp, "*INCLUDE, INPUT=b.inp\n", "only files in one piece");
     require_error(folder / "a.vtu", "<VTKFile type=\"PolyData\"/>", "is not an unstructured grid");
     require_error(folder / "a.vtu", "<VTKFile type=", "byte");
 }

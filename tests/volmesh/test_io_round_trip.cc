@@ -113,8 +113,9 @@ struct Way {
     bool has_properties;
 };
 
-constexpr Way ways[] = {{"a.vtu", "", true},   {"a.msh", "", true},   {"a.msh", "msh22", true},
-                        {"a.mesh", "", false}, {"a.node", "", false}, {"a.ele", "", false}};
+constexpr Way ways[] = {{"a.vtu", "", true},   {"a.msh", "", true},  {"a.msh", "msh22", true},
+                        {"a.mesh", "", false}, {"a.inp", "", false}, {"a.node", "", false},
+                        {"a.ele", "", false}};
 
 }  // namespace
 
@@ -206,4 +207,63 @@ TEST_CASE("a file is written whole or not at all") {
     CHECK(std::filesystem::is_empty(folder.path()));
     CHECK_THROWS_AS(read_mesh(folder / "a.vtu"), InputError);
     CHECK_THROWS_AS(read_mesh(folder.path()), InputError);
+}
+
+TEST_CASE("an Abaqus file of others keeps its sets") {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a.inp") << R"(*Heading
+ two tetrahedra on a triangle
+*Node, nset="All of them"
+10, 0., 0., 0.
+11, 1., 0., 0.
+12, 0., 1., 0.
+13, 0., 0., 1.
+20, 0., 0., -1.
+*Element, type=C3D4, elset=Upper
+1, 10, 11,
+12, 13
+*Element, type=C3D4, elset=lower
+2, 10, 12, 11, 20
+*Element, type=S3
+7, 12, 11, 10
+*Element, type=T3D2, elset=bar
+8, 10, 13
+*Nset, nset=Middle, generate
+10, 12, 1
+*Nset, nset=more
+middle, 13
+*Elset, elset=both
+UPPER, lower
+*Elset, elset=skin
+7
+*Surface, type=ELEMENT, name=slanted
+Upper, S3
+2, S2
+*Surface, type=NODE, name=tips
+13,
+20
+*Material, name=steel
+*Elastic
+210000., 0.3
+)";
+    const TetMesh mesh = read_mesh(folder / "a.inp");
+    CHECK(mesh.n_vertices() == 5);
+    CHECK(mesh.n_cells() == 2);
+    const auto sizes = [&] {
+        std::map<std::pair<EntityKind, std::string>, std::size_t> result;
+        for (std::uint32_t i = 0; i < mesh.n_sets(); ++i)
+            result[{mesh.set_info(SetHandle(i)).kind, mesh.set_info(SetHandle(i)).name}] =
+                mesh.set_size(SetHandle(i));
+        return result;
+    }();
+    const decltype(sizes) wanted{
+        {{EntityKind::vertex, "All of them"}, 5}, {{EntityKind::vertex, "Middle"}, 3},
+        {{EntityKind::vertex, "more"}, 4},        {{EntityKind::vertex, "tips"}, 2},
+        {{EntityKind::edge, "bar"}, 1},           {{EntityKind::face, "skin"}, 1},
+        {{EntityKind::face, "slanted"}, 2},       {{EntityKind::cell, "Upper"}, 1},
+        {{EntityKind::cell, "lower"}, 1},         {{EntityKind::cell, "both"}, 2}};
+    CHECK(sizes == wanted);
+    const HalffaceHandle slanted = mesh.find_halfface(VertexHandle(1), VertexHandle(2), VertexHandle(3));
+    CHECK(std::ranges::count(mesh.sets_of(mesh.combination(slanted)),
+                             mesh.find_set("slanted", EntityKind::face)) == 1);
 }

@@ -20,6 +20,9 @@ void write_msh22(const TetMesh& mesh, const Path& path);
 TetMesh read_medit(const Path& path);
 void write_medit(const TetMesh& mesh, const Path& path);
 
+TetMesh read_abaqus(const Path& path);
+void write_abaqus(const TetMesh& mesh, const Path& path);
+
 /// The path is that of any one of the files; the others lie beside it.
 TetMesh read_tetgen(const Path& path);
 void write_tetgen(const TetMesh& mesh, const Path& path);

@@ -26,6 +26,7 @@ constexpr std::array formats{
     Format{".msh", "msh41", io::read_msh, io::write_msh41},
     Format{".msh", "msh22", io::read_msh, io::write_msh22},
     Format{".mesh", "medit", io::read_medit, io::write_medit},
+    Format{".inp", "abaqus", io::read_abaqus, io::write_abaqus},
     Format{".node", "tetgen", io::read_tetgen, io::write_tetgen},
     Format{".ele", "tetgen", io::read_tetgen, io::write_tetgen},
     Format{".stl", "stl", nullptr, io::write_surface},
@@ -52,8 +53,8 @@ const Format& format_of(const io::Path& path, std::string_view name) {
         throw InputError(
             fmt::format("{}: the format '{}' is not one of {} files", path.string(), name, extension));
     throw InputError(
-        fmt::format("{}: the extension '{}' is not one of .vtu .msh .mesh .node .ele, and for surfaces .stl "
-                    ".obj .off .ply",
+        fmt::format("{}: the extension '{}' is not one of .vtu .msh .mesh .inp .node .ele, and for surfaces "
+                    ".stl .obj .off .ply",
                     path.string(), extension));
 }
 
