@@ -36,18 +36,40 @@ bool is_frozen(const Net& net, Index v) {
     return std::ranges::any_of(net.triangles_at(v), [&](Index t) { return net.patch(t).frozen; });
 }
 
-/// Where v belongs, or nothing where its surfaces have no common point near it.
-std::optional<Vec3> place_on_surfaces(const Session& session, Index v) {
+/// Where v belongs if it starts from p, or nothing where its surfaces have no common point near that.
+std::optional<Vec3> place_on_surfaces(const Session& session, Index v, const Vec3& p) {
     const Net& net = session.net;
-    return nearest(session, net.surfaces(net.triangles_at(v)), net.kind(v), net.point(v),
+    return nearest(session, net.surfaces(net.triangles_at(v)), net.kind(v), p,
                    projection_reach * net.size(v));
 }
 
-/// The middle of the neighbours of v; on a curve of those along it.
 Vec3 middle_of_neighbours(const Net& net, std::span<const Index> neighbours) {
     Vec3 sum = Vec3::Zero();
     for (const Index w : neighbours) sum += net.point(w);
     return sum / static_cast<double>(neighbours.size());
+}
+
+/// The neighbours of v; on a curve those along it.
+std::vector<Index> neighbours_alike(const Net& net, Index v) {
+    return net.kind(v) == VertexKind::curve ? net.feature_neighbours(v) : net.neighbours(v);
+}
+
+/// Moves v onto its surfaces where it isn't on them yet: to the nearest place, or to that nearest to the
+/// middle of its neighbours where facets are in the way, or that place belongs to another branch of the
+/// curve.
+bool try_projection(Session& session, Index v) {
+    const Net& net = session.net;
+    const auto try_move = [&](const Vec3& target) {
+        const Change change = move(net, v, target);
+        const double before = worst_quality(net, change.removed);
+        return try_change(session, change, std::min(before, least_after_projection));
+    };
+    const auto target = place_on_surfaces(session, v, net.point(v));
+    if (!target || (*target - net.point(v)).norm() <= on_surface * net.size(v)) return false;
+    if (try_move(*target)) return true;
+    if (net.kind(v) == VertexKind::corner || net.kind(v) == VertexKind::tangent) return false;
+    const auto other = place_on_surfaces(session, v, middle_of_neighbours(net, neighbours_alike(net, v)));
+    return other && try_move(*other);
 }
 
 /// The mean of the places where v would make each of its triangles isosceles and as high as an equilateral
@@ -77,7 +99,7 @@ bool try_smoothing(Session& session, Index v) {
     if (before > smoothed) return false;
 
     const auto surfaces = net.surfaces(net.triangles_at(v));
-    const auto ends = kind == VertexKind::curve ? net.feature_neighbours(v) : net.neighbours(v);
+    const auto ends = neighbours_alike(net, v);
     Change best;
     double best_quality = before + least_gain;
     for (const Vec3& aim : {middle_of_neighbours(net, ends), mean_of_ideal_apexes(net, v)})
@@ -103,11 +125,7 @@ std::size_t project_vertices(Session& session) {
     std::size_t done = 0;
     for (Index v = 0; v < net.n_vertices(); ++v) {
         if (net.triangles_at(v).empty() || is_frozen(net, v)) continue;
-        const auto target = place_on_surfaces(session, v);
-        if (!target || (*target - net.point(v)).norm() <= on_surface * net.size(v)) continue;
-        const Change change = move(net, v, *target);
-        const double before = worst_quality(net, change.removed);
-        if (try_change(session, change, std::min(before, least_after_projection))) ++done;
+        if (try_projection(session, v)) ++done;
     }
     session.report.projections += done;
     return done;
@@ -129,7 +147,7 @@ std::size_t count_short_of_surface(const Session& session) {
     std::size_t count = 0;
     for (Index v = 0; v < net.n_vertices(); ++v) {
         if (net.triangles_at(v).empty() || is_frozen(net, v)) continue;
-        const auto target = place_on_surfaces(session, v);
+        const auto target = place_on_surfaces(session, v, net.point(v));
         // Ten times the tolerance of the moves: projecting again rounds again.
         if (!target || (*target - net.point(v)).norm() > 10 * on_surface * net.size(v)) ++count;
     }

@@ -138,6 +138,63 @@ Case two_materials() {
              {"block/z+", 4}}};
 }
 
+/// Millimetres; y is the way through the boss, z up. Where two solids of the union overlap the earlier owns
+/// the place, and the later one's surfaces end there.
+Case bracket() {
+    // Of the boss's section (radius 16, centre at z = -5): the part below z = -2, in the upright.
+    const double half_chord = std::sqrt(256.0 - 9), rise = std::asin(3.0 / 16);
+    const double in_upright = 128 * pi + 3 * half_chord + 256 * rise;
+    // And the part in the rib, 6 wide, whose top is at z = -19.
+    const double reach = std::sqrt(256.0 - 9), in_rib = 3 * reach + 256 * rise - 6 * 14;
+    // What the fillet (radius 9) leaves of the bar's section between the upright and the base.
+    const double leg = 8 - std::sqrt(17.0), fillet_angle = pi / 2 - 2 * std::acos(8.0 / 9);
+    const double leaf = 64 - (8 * std::sqrt(17.0) + 81 * fillet_angle / 2);
+    // The rib's section beyond the upright and above the base: 25 wide at the bottom, 4 at the top.
+    const double rib = 21 * (25.0 + 4) / 2;
+
+    const double bushing = 18 * pi * (64 - 25);
+    const double hole = pi * (10 * square(3.5) + 40.5);
+    const double steel = 60 * 50 * 10 + 40 * 10 * 38 + (14 * 256 * pi - 10 * in_upright) +
+                         (6 * rib - 2 * in_rib) + 34 * leaf - 14 * 64 * pi - 2 * hole;
+    Case c{"bracket",
+           "",
+           3,
+           steel + bushing,
+           0,
+           {{"base/x-", 50 * 10},
+            {"base/x+", 50 * 10},
+            {"base/y-", 60 * 10},
+            {"base/y+", 60 * 10},
+            {"base/z-", 60 * 50 - 2 * pi * square(3.5)},
+            {"base/z+", 60 * 50 - 40 * 10 - 6 * 25 - 34 * leg - 2 * pi * square(6.5)},
+            {"upright/x-", 10 * 38},
+            {"upright/x+", 10 * 38},
+            {"upright/y-", 40 * 38 - in_upright},
+            {"upright/y+", 40 * 38 - in_upright - (6 * 21 - in_rib) - 34 * leg},
+            {"upright/z+", 10 * (40 - 2 * half_chord)},
+            {"boss/side", 16 * (2 * 2 * pi + 10 * (pi - 2 * rise) + 2 * (2 * pi - 2 * rise))},
+            {"boss/bottom", pi * (256 - 64)},
+            {"boss/top", pi * (256 - 64) - in_rib},
+            {"rib/x+", 6 * 21 * std::sqrt(2.0)},
+            {"rib/y-", rib - 2 * (reach - 14) - leaf},
+            {"rib/y+", rib - 2 * (reach - 14) - leaf},
+            {"rib/z+", 6 * 2},
+            {"bar/x-", leaf},
+            {"bar/x+", leaf},
+            {"fillet/side", 34 * 9 * fillet_angle},
+            {"bushing/side", 2 * pi * 8 * 4},
+            {"bushing/bottom", pi * (64 - 25)},
+            {"bushing/top", pi * (64 - 25)},
+            {"bore/side", 2 * pi * 5 * 18},
+            {"hole/side", 2 * 2 * pi * 3.5 * 7},
+            {"countersink/side", 2 * pi * (3.5 + 6.5) * 3 * std::sqrt(2.0)}}};
+    for (const auto& [name, area] : c.sets) c.area += area;
+    c.sets["bushing/side/inner"] = 2 * pi * 8 * 14;
+    c.sets["bushing"] = c.sets["bronze"] = bushing;
+    c.sets["steel"] = steel;
+    return c;
+}
+
 /// A round pipe along x of radius b meets an upright one of radius a < b, both axes through the origin.
 struct Crossing {
     double a, b;
@@ -259,8 +316,8 @@ Case torus_with_hole() {
 }  // namespace
 
 std::vector<Case> all_cases() {
-    return {sphere(), ellipsoid(),   cylinder(),      cone(),          torus(), bicylinder(),     lens(),
-            die(),    napkin_ring(), stacked_boxes(), two_materials(), tee(),   torus_with_hole()};
+    return {sphere(), ellipsoid(),   cylinder(),      cone(),          torus(), bicylinder(),      lens(),
+            die(),    napkin_ring(), stacked_boxes(), two_materials(), tee(),   torus_with_hole(), bracket()};
 }
 
 }  // namespace maille::convergence
