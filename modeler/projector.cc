@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <memory>
 
+#include <Eigen/Eigenvalues>
+
 #include "modeler/model.hh"
 #include "modeler/projector_newton.hh"
 
@@ -11,6 +13,14 @@ std::vector<std::shared_ptr<const Shape>> shapes_of(const Model& model) {
     std::vector<std::shared_ptr<const Shape>> shapes;
     for (const Primitive& primitive : model.primitives) shapes.push_back(primitive.shape);
     return shapes;
+}
+
+/// By number of the surface.
+std::vector<ShapeFace> all_faces(const Model& model) {
+    std::vector<ShapeFace> faces;
+    for (const ModelSurface& surface : surfaces(model))
+        faces.push_back({model.primitives[surface.primitive].shape.get(), surface.face});
+    return faces;
 }
 
 double size_of(const Model& model) {
@@ -32,10 +42,7 @@ void add(std::vector<ShapeFace>& faces, const ShapeFace& face) {
 }  // namespace
 
 SurfaceProjection surface_projection(const Model& model) {
-    std::vector<ShapeFace> all;
-    for (const ModelSurface& surface : surfaces(model))
-        all.push_back({model.primitives[surface.primitive].shape.get(), surface.face});
-    return [shapes = shapes_of(model), all = std::move(all), size = size_of(model)](
+    return [shapes = shapes_of(model), all = all_faces(model), size = size_of(model)](
                std::span<const std::uint32_t> numbers, const Point& p) {
         std::vector<ShapeFace> faces;
         for (std::uint32_t number : numbers) add(faces, all[number]);
@@ -55,6 +62,13 @@ volmesh::Projector projector(const Model& model) {
         std::vector<std::uint32_t> outer(numbers.begin(), numbers.end());
         for (std::uint32_t& number : outer) number %= count;
         return project(outer, p);
+    };
+    result.curvature = [faces = all_faces(model), shapes = shapes_of(model)](std::uint32_t number,
+                                                                             const Point& p) {
+        const auto& [shape, face] = faces[number % faces.size()];
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(shape->face_curvature(face, p),
+                                                                    Eigen::EigenvaluesOnly);
+        return solver.eigenvalues().cwiseAbs().maxCoeff();
     };
     return result;
 }

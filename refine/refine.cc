@@ -46,9 +46,13 @@ class Refinement {
     }
 
     RefineResult run() {
-        do {
-            refine_to_size();
-        } while (bring_home() && result_.ended);
+        refine_and_project();
+        if (options_.gradation > 0 && result_.ended) {
+            // Now the mesh is fine enough to see all that the size does.
+            size_ = limit_growth(size_, mesh_, options_.gradation);
+            look_at_all_again();
+            refine_and_project();
+        }
         result_.cells = mesh_.n_cells();
         result_.vertices = mesh_.n_vertices();
         result_.lineage = bisector_.take_lineage();
@@ -57,6 +61,18 @@ class Refinement {
     }
 
   private:
+    void refine_and_project() {
+        do {
+            refine_to_size();
+        } while (bring_home() && result_.ended);
+    }
+
+    void look_at_all_again() {
+        Cells all;
+        for (const auto c : mesh_.cells()) all.push_back(c);
+        bisector_.refresh(all);
+    }
+
     void refine_to_size() {
         for (Cells marked = mark(); !marked.empty(); marked = mark()) {
             if (result_.iterations >= options_.max_iterations || mesh_.n_cells() > options_.max_cells) {
@@ -145,7 +161,7 @@ class Refinement {
     }
 
     TetMesh& mesh_;
-    const SizeField& size_;
+    SizeField size_;
     const RefineOptions& options_;
     Bisector bisector_;
     std::optional<BoundaryProjection> projection_;
@@ -157,6 +173,8 @@ class Refinement {
 void require_valid(const TetMesh& mesh, const RefineOptions& options) {
     if (!(options.ratio > 0) || !std::isfinite(options.ratio))
         throw InputError(fmt::format("the refinement ratio must be positive, not {}", options.ratio));
+    if (!(options.gradation >= 0) || !std::isfinite(options.gradation))
+        throw InputError(fmt::format("the gradation must be positive, not {}", options.gradation));
     if (options.max_iterations < 0) throw InputError("the number of iterations cannot be negative");
     if (options.threads < 0) throw InputError("the number of threads cannot be negative");
     if (mesh.has_deleted())

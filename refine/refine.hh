@@ -33,6 +33,8 @@ struct RefineOptions {
     Order order = Order::none;
     double ratio =
         1.5;  ///< an element is refined while its longest edge is longer than this times the size wanted
+    /// Lets the size grow by no more than this for each unit of length (`limit_growth`); 0: however it does.
+    double gradation = 0;
     int max_iterations = 100;
     std::uint32_t max_cells = 1'000'000'000;  ///< no pass begins with more
     bool project = true;                      ///< where a projector is given

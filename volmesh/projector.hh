@@ -29,6 +29,10 @@ struct Projector {
 
     /// Size of the model: the diagonal of its bounding box.
     double model_size = 0;
+
+    /// The largest curvature (one over a radius) of a surface at its point nearest to `p`, 0 where it is
+    /// flat. Thread-safe. May be missing.
+    std::function<double(std::uint32_t surface, const Eigen::Vector3d& p)> curvature{};
 };
 
 }  // namespace maille::volmesh

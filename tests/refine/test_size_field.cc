@@ -142,3 +142,34 @@ TEST_CASE("a field that is not there, or no size, is refused") {
     CHECK(has(text, "vertex 5"));
     CHECK(has(text, "(1, 0, 1)"));
 }
+
+TEST_CASE("sizes of cells may be averaged at the vertices by volume") {
+    auto mesh = test::random_cube(3, 9, 0.2).mesh();
+    maille::volmesh::CPropHandleT<double> h;
+    mesh.add_property(h, "h");
+    for (const auto c : mesh.cells()) mesh.property(h, maille::volmesh::CellHandle(c)) = 1.0 + c.idx() % 7;
+    const SizeField size = mesh_size(mesh, "h", CellValues::averaged);
+    std::vector<double> at_vertex;
+    for (const auto v : mesh.vertices()) {
+        double sum = 0, total = 0;
+        for (const auto c : v.cells()) {
+            const auto p = mesh.cell_points(c);
+            const double volume = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+            sum += volume * mesh.property(h, c);
+            total += volume;
+        }
+        at_vertex.push_back(sum / total);
+        CHECK(size(v.point()) == doctest::Approx(sum / total).epsilon(1e-10));
+    }
+    for (const auto c : mesh.cells()) {
+        double mean = 0;
+        Point centroid = Point::Zero();
+        for (const auto v : c.vertices()) {
+            mean += at_vertex[v.idx()] / 4;
+            centroid += mesh.point(v) / 4;
+        }
+        CHECK(size(centroid) == doctest::Approx(mean).epsilon(1e-10));
+    }
+    for (const auto c : mesh.cells()) mesh.property(h, maille::volmesh::CellHandle(c)) = 0.5;
+    CHECK(mesh_size(mesh, "h", CellValues::averaged)(Point(0.3, 0.4, 0.5)) == doctest::Approx(0.5));
+}

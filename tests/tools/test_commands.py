@@ -75,6 +75,33 @@ class Mesh(MailleCase):
         coarse = abs(self.info(self.mesh(PLATE, "0.6", "coarse.vtu"))["volume"] - (9 - math.pi * 0.64))
         self.assertLess(abs(self.info("plate.vtu")["volume"] - (9 - math.pi * 0.64)), coarse)
 
+    def test_sizes_by_sets_and_curvature(self):
+        model = self.model(PLATE)
+        size = "min(0.6, 0.1+0.3*d('hole/side'))"
+        near = self.maille_json("mesh", model, "--size", "0.6", "--refine", size, "-o", "near.vtu")
+        everywhere = self.maille_json("mesh", model, "--size", "0.6", "--refine", "0.1", "-o", "everywhere.vtu")
+        self.assertLess(near["cells"], everywhere["cells"] / 3)
+        # The refined mesh's hole is not quite where the start mesh's was.
+        report = self.maille_json("quality", "near.vtu", "--size", f"{size}+0.02")
+        self.assertLessEqual(report["measures"]["phi"]["max"], 1.5)
+        several = self.maille_json("mesh", model, "--size", "0.6", "--refine", "0.6", "--refine", "0.1+0.3*d('hole/side')",
+                                   "-o", "several.vtu")
+        self.assertEqual(several["cells"], near["cells"])
+        self.maille("mesh", model, "--size", "0.6", "--refine", "curvature(40)", "-o", "round.vtu")
+        missing = abs(self.sets("round.vtu", "face")["hole/side"] - 2 * math.pi * 0.8)
+        # Edges of up to 1.5 times a 40th of the circle: 1 - sin(t)/t, t = 1.5 pi / 40.
+        self.assertLess(missing / (2 * math.pi * 0.8), (1.5 * math.pi / 40) ** 2 / 6)
+        stderr = self.run_maille("mesh", model, "--size", "0.6", "--refine", "d('hull')", "-o", "no.vtu").stderr
+        self.assertIn('no set named "hull"', stderr)
+        self.assertIn("hole/side", stderr)
+
+    def test_gradation(self):
+        size = "x < 0.2 ? 0.04 : 1"
+        counts = [self.maille_json("mesh", self.model("cube(1);"), "--size", "0.5", "--refine", size, "-o", "cube.vtu",
+                                   *gradation)["cells"] for gradation in ((), ("--gradation", "0.2"))]
+        self.assertGreater(counts[1], 1.2 * counts[0])
+        self.maille("validate", "cube.vtu")
+
     def test_sizes_of_the_model_count(self):
         coarse = self.info(self.mesh("cube(1);", "0.5"))["cells"]
         fine = self.info(self.mesh("size(0.2) cube(1);", "0.5"))["cells"]

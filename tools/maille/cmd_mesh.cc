@@ -19,7 +19,7 @@ struct MeshOptions {
     CommonOptions common;
     ModelOptions model;
     std::optional<std::string> start_size;
-    std::optional<std::string> refined_size;
+    SizeOptions refined_size;
     refine::RefineOptions refine;
     OutputOptions output;
     std::string picture;
@@ -28,20 +28,22 @@ struct MeshOptions {
 void run(const MeshOptions& options) {
     check_output(options.output);
     if (!options.picture.empty()) check_folder(options.picture);
-    const std::optional<refine::SizeField> refined_size = optional_size_field(options.refined_size);
+    const SizeArguments refined_size = read(options.refined_size);
 
     Summary summary;
-    Progress progress(options.common, refined_size ? 5 : 4);
+    Progress progress(options.common, refined_size.empty() ? 4 : 5);
     progress.step("reading the model");
     const modeler::Model model = read(options.model);
-    const std::optional<refine::SizeField> start_size = optional_size_field(options.start_size);
+    std::optional<refine::SizeField> start_size;
+    if (options.start_size) start_size = SizeArgument(*options.start_size).field();
     summary.clock.end(Phase::read);
 
     volmesh::TetMesh mesh = start_mesh(model, start_size, options.common.threads, progress, summary);
-    if (refined_size) {
+    if (!refined_size.empty()) {
         progress.step("refining");
         const volmesh::Projector projector = modeler::projector(model);
-        summary.add(refine_with_progress(mesh, *refined_size, options.refine, &projector, progress));
+        const refine::SizeField size = smallest(refined_size, {&mesh, &projector});
+        summary.add(refine_with_progress(mesh, size, options.refine, &projector, progress));
         summary.clock.end(Phase::refine);
     }
     progress.step("writing");
@@ -64,10 +66,10 @@ void add_mesh_command(CLI::App& program) {
     add_output_options(command, options->output);
     command.add_option("--size", options->start_size, start_size_help)->type_name("EXPR");
     add_facets_option(command, options->model);
-    command
-        .add_option("--refine", options->refined_size,
-                    "Then refine to this size, with new boundary vertices on the true surfaces")
-        ->type_name("EXPR");
+    add_size_options(
+        command, "--refine", options->refined_size,
+        std::string("Then refine to this size, with new boundary vertices on the true surfaces: ") +
+            refined_size_help);
     add_refine_options(command, options->refine);
     add_picture_option(command, options->picture);
     add_json_option(command, options->common, "a summary");

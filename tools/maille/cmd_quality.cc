@@ -35,10 +35,10 @@ void improve_and_write(volmesh::TetMesh& mesh, const QualityOptions& options) {
 
 void run(const QualityOptions& options) {
     std::optional<quality::WantedSize> size;
-    if (options.size) size = size_field(*options.size);
     const bool improves = !options.improved.path.empty();
     if (improves) check_output(options.improved);
     volmesh::TetMesh mesh = volmesh::read_mesh(options.mesh);
+    if (options.size) size = SizeArgument(*options.size).field({.mesh = &mesh});
     if (improves) improve_and_write(mesh, options);
     const quality::Report report = quality::assess(mesh, size ? &*size : nullptr);
     fmt::print("{}",

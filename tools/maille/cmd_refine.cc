@@ -18,7 +18,7 @@ struct RefineCommandOptions {
     CommonOptions common;
     std::string input;
     ModelOptions model;
-    std::string size;
+    SizeOptions size;
     refine::RefineOptions refine;
     OutputOptions output;
 };
@@ -48,7 +48,7 @@ std::optional<modeler::Model> model_of(const RefineCommandOptions& options) {
 
 void run(const RefineCommandOptions& options) {
     check_output(options.output);
-    const refine::SizeField size = size_field(options.size);
+    const SizeArguments sizes = read(options.size);
     Summary summary;
     Progress progress(options.common, is_model_file(options.input) ? 5 : 3);
     progress.step("reading");
@@ -59,8 +59,9 @@ void run(const RefineCommandOptions& options) {
     progress.step("refining");
     std::optional<volmesh::Projector> projector;
     if (model) projector = modeler::projector(*model);
-    summary.add(
-        refine_with_progress(mesh, size, options.refine, projector ? &*projector : nullptr, progress));
+    const volmesh::Projector* surfaces = projector ? &*projector : nullptr;
+    const refine::SizeField size = smallest(sizes, {&mesh, surfaces});
+    summary.add(refine_with_progress(mesh, size, options.refine, surfaces, progress));
     summary.clock.end(Phase::refine);
 
     progress.step("writing");
@@ -79,9 +80,8 @@ void add_refine_command(CLI::App& program) {
         "maille refine examples/tee.csg --size 0.1 --method rivara --order longest -o tee.msh", options, run);
     command.add_option("MESH", options->input, "Mesh file, or model file (.csg)")->required();
     add_output_options(command, options->output);
-    command.add_option("--size", options->size, std::string("Wanted size: ") + size_help)
-        ->required()
-        ->type_name("EXPR");
+    add_size_options(command, "--size", options->size, std::string("Wanted size: ") + refined_size_help)
+        ->required();
     add_refine_options(command, options->refine);
     add_model_options(command, options->model, "Put new boundary vertices on the surfaces of this model");
     command.add_flag("!--no-project", options->refine.project,

@@ -62,6 +62,12 @@ void add_refine_options(CLI::App& command, refine::RefineOptions& options) {
             "An element is refined while its longest edge is longer than this times the wanted size (1.5)")
         ->check(CLI::PositiveNumber)
         ->type_name("X");
+    command
+        .add_option(
+            "--gradation", options.gradation,
+            "Let the size grow by no more than this for each unit of length: 0.3 makes soft transitions")
+        ->check(CLI::PositiveNumber)
+        ->type_name("G");
     command.add_option("--max-iterations", options.max_iterations, "Most passes (100)")
         ->check(CLI::PositiveNumber)
         ->type_name("N");
