@@ -1,6 +1,7 @@
 #include "refine/project.hh"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -38,6 +39,7 @@ BoundaryProjection::BoundaryProjection(TetMesh& mesh, const volmesh::Projector& 
       projector_(projector),
       surfaces_of_(mesh, &projector),
       min_shape_(min_shape),
+      good_shape_(std::max(min_shape, 0.05)),
       tolerance_(1e-12 * projector.model_size) {}
 
 void BoundaryProjection::take_up(std::uint32_t first, std::span<const CellHandle> cells) {
@@ -48,16 +50,16 @@ void BoundaryProjection::take_up(std::uint32_t first, std::span<const CellHandle
 std::vector<CellHandle> BoundaryProjection::run() {
     find_targets();
     constexpr int max_sweeps = 3;  // a vertex may wait for a neighbour that is moved after it
-    for (int i = 0; i < max_sweeps && sweep(min_shape_); ++i) {
+    for (int i = 0; i < max_sweeps && sweep(good_shape_); ++i) {
     }
     return take_changed();
 }
 
 std::vector<CellHandle> BoundaryProjection::insist() {
     constexpr int patience = 5;  // sweeps in which no vertex arrives
-    for (const double part : {1.0, 0.1, 0.01}) {
+    for (const double least_shape : {good_shape_, std::sqrt(good_shape_ * min_shape_), min_shape_}) {
         std::size_t fewest = waiting_.size();
-        for (int failed = 0; failed < patience && sweep(part * min_shape_); ++failed) {
+        for (int failed = 0; failed < patience && sweep(least_shape); ++failed) {
             if (waiting_.size() >= fewest) continue;
             fewest = waiting_.size();
             failed = 0;
@@ -144,11 +146,18 @@ std::vector<CellHandle> BoundaryProjection::take_changed() {
     return std::exchange(changed_, {});
 }
 
-std::vector<VertexHandle> BoundaryProjection::short_of_target() const {
-    std::vector<VertexHandle> vertices;
-    for (const Waiting& waiting : waiting_) vertices.push_back(waiting.vertex);
-    std::ranges::sort(vertices);
-    return vertices;
+std::vector<ShortOfTarget> BoundaryProjection::short_of_target() const {
+    std::vector<ShortOfTarget> all;
+    for (const Waiting& waiting : waiting_) {
+        ShortOfTarget& left = all.emplace_back();
+        left.vertex = waiting.vertex;
+        left.place = mesh_.point(waiting.vertex);
+        for (const std::uint32_t surface : waiting.support)
+            left.surfaces.push_back(projector_.surfaces[surface]);
+        if (waiting.has_target) left.distance = (waiting.target - left.place).norm();
+    }
+    std::ranges::sort(all, {}, &ShortOfTarget::vertex);
+    return all;
 }
 
 std::vector<CellEdge> BoundaryProjection::blocking_edges() const {
@@ -156,7 +165,7 @@ std::vector<CellEdge> BoundaryProjection::blocking_edges() const {
     for (const Waiting& waiting : waiting_) {
         if (!waiting.has_target) continue;
         for (const CellHandle c : mesh_.vc_range(waiting.vertex))
-            if (worst_shape(mesh_, CellList{c}, waiting.vertex, waiting.target) < min_shape_)
+            if (worst_shape(mesh_, CellList{c}, waiting.vertex, waiting.target) < good_shape_)
                 edges.emplace(c, edge_to_split(mesh_, c));
     }
     std::vector<CellEdge> found;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "refine/projection_result.hh"
 #include "refine/support.hh"
 #include "volmesh/projector.hh"
 #include "volmesh/tet_mesh.hh"
@@ -22,7 +23,8 @@ struct CellEdge {
 /// room, and it tries again each time.
 class BoundaryProjection {
   public:
-    /// `min_shape`: the least shape (gamma) that a move may leave in a cell that was better before.
+    /// `min_shape`: the least shape (gamma) that a move may leave in a cell, unless one round the vertex had
+    /// less before; as long as there is another way, none leaves less than 0.05.
     BoundaryProjection(volmesh::TetMesh& mesh, const volmesh::Projector& projector, double min_shape);
 
     /// Takes up the vertices from `first` on; the cells given are all that have one of them, or more.
@@ -31,7 +33,7 @@ class BoundaryProjection {
     /// Moves the vertices that are not on their surfaces yet. Returns the cells whose points have moved,
     /// ascending.
     std::vector<volmesh::CellHandle> run();
-    /// The same with all patience: shapes down to a hundredth of the one allowed are accepted at last.
+    /// The same with all patience: shapes down to the least allowed are accepted at last.
     std::vector<volmesh::CellHandle> insist();
 
     bool is_done() const { return waiting_.empty(); }
@@ -39,8 +41,8 @@ class BoundaryProjection {
     std::size_t n_waiting() const { return waiting_.size(); }
     /// Number of vertices that have been moved towards their surfaces.
     std::size_t n_moved() const { return n_moved_; }
-    /// Vertices that are not on all their surfaces, ascending.
-    std::vector<volmesh::VertexHandle> short_of_target() const;
+    /// Those vertices, ascending.
+    std::vector<ShortOfTarget> short_of_target() const;
     /// Edges whose split gives those vertices more room, one for each cell in their way: inside the mesh
     /// between two vertices of its boundary, which can't make room, if there is such an edge, or else the
     /// cell's longest.
@@ -65,7 +67,7 @@ class BoundaryProjection {
     volmesh::TetMesh& mesh_;
     const volmesh::Projector& projector_;
     volmesh::FaceSurfaces surfaces_of_;
-    double min_shape_;
+    double min_shape_, good_shape_;
     double tolerance_;  ///< how near is on the surface
     std::vector<Waiting> waiting_;
     std::vector<volmesh::CellHandle> changed_;

@@ -175,6 +175,9 @@ void require_valid(const TetMesh& mesh, const RefineOptions& options) {
         throw InputError(fmt::format("the refinement ratio must be positive, not {}", options.ratio));
     if (!(options.gradation >= 0) || !std::isfinite(options.gradation))
         throw InputError(fmt::format("the gradation must be positive, not {}", options.gradation));
+    if (!(options.min_shape > 0 && options.min_shape <= 1))
+        throw InputError(
+            fmt::format("the least shape must be above 0 and at most 1, not {}", options.min_shape));
     if (options.max_iterations < 0) throw InputError("the number of iterations cannot be negative");
     if (options.threads < 0) throw InputError("the number of threads cannot be negative");
     if (mesh.has_deleted())

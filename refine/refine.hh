@@ -6,6 +6,7 @@
 
 #include "refine/lineage.hh"
 #include "refine/marking.hh"
+#include "refine/projection_result.hh"
 #include "refine/size_field.hh"
 #include "volmesh/projector.hh"
 #include "volmesh/tet_mesh.hh"
@@ -42,15 +43,11 @@ struct RefineOptions {
     /// betters the worst element. Nodes on an interface or in a set keep their places, and so does what was
     /// interpolated for them.
     bool smooth = false;
-    double min_shape = 0.05;  ///< the least shape (gamma) that projection leaves in an element, while it can
-    int threads = 0;          ///< 0: as many as the machine has; the result does not depend on it
+    /// No move onto a surface leaves an element with less shape (gamma) than this, unless one round the node
+    /// had less before. Moves that leave less than 0.05 are the last resort.
+    double min_shape = 0.0005;
+    int threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
     std::function<void(const Progress&)> progress{};
-};
-
-struct ProjectionResult {
-    std::size_t moved = 0;
-    /// Vertices that could not be brought onto all their surfaces without inverting an element, ascending.
-    std::vector<volmesh::VertexHandle> short_of_target;
 };
 
 struct Seconds {

@@ -4,7 +4,10 @@
 #include <doctest/doctest.h>
 
 #include "meshes.hh"
+#include "refine/project.hh"
 #include "refine/refine.hh"
+#include "refine/relocate.hh"
+#include "volmesh/error.hh"
 #include "volmesh/measure.hh"
 #include "volmesh/validate.hh"
 
@@ -198,11 +201,18 @@ TEST_CASE("where walls are too thin for the start mesh, what falls short is name
     const RefineResult result = refine(mesh, SizeField(0.2), {}, &projector);
     check_valid(mesh);
     const auto& named = result.projection.short_of_target;
-    CHECK(std::ranges::is_sorted(named));
+    CHECK(std::ranges::is_sorted(named, {}, &ShortOfTarget::vertex));
     for (const auto hf : mesh.face_members(mesh.find_set("hole", EntityKind::face)))
         for (const auto v : mesh.halfface_vertices(hf))
-            if (!std::ranges::binary_search(named, v)) CHECK(std::abs(mesh.point(v).norm() - radius) < 1e-10);
-    for (const auto v : named) CHECK(std::abs(mesh.point(v).norm() - radius) < 0.1);
+            if (!std::ranges::binary_search(named, v, {}, &ShortOfTarget::vertex))
+                CHECK(std::abs(mesh.point(v).norm() - radius) < 1e-10);
+    for (const ShortOfTarget& left : named) {
+        CHECK(left.place == mesh.point(left.vertex));
+        CHECK(left.surfaces == std::vector<std::string>{"hole"});
+        REQUIRE(left.distance.has_value());
+        CHECK(*left.distance == doctest::Approx(std::abs(left.place.norm() - radius)));
+        CHECK(*left.distance < 0.1);
+    }
 }
 
 TEST_CASE("a start mesh that is off its surface is brought there, though nothing is refined") {
@@ -234,12 +244,49 @@ TEST_CASE("a vertex that cannot get there is named, and nothing is broken for it
     const RefineResult result = refine(mesh, SizeField(0.5), {}, &absurd);
     check_valid(mesh);
     CHECK_FALSE(result.projection.short_of_target.empty());
-    for (const auto v : result.projection.short_of_target) CHECK(mesh.point(v).z() < 1);
+    for (const ShortOfTarget& left : result.projection.short_of_target) {
+        CHECK(left.place.z() < 1);
+        CHECK(*left.distance == doctest::Approx(3 - left.place.z()));
+        CHECK(left.surfaces == std::vector<std::string>{"low"});
+    }
 
     const Projector silent{{"low"}, [](auto, const Point&) { return std::nullopt; }, 1};
     TetMesh other = test::kuhn_cube(2).mesh();
     name_faces(other, [](const Point& p) { return p.z() < 1e-9 ? "low" : ""; });
-    CHECK(refine(other, SizeField(10), {}, &silent).projection.short_of_target.size() == 9);
+    const auto unknown = refine(other, SizeField(10), {}, &silent).projection.short_of_target;
+    CHECK(unknown.size() == 9);
+    for (const ShortOfTarget& left : unknown) CHECK_FALSE(left.distance.has_value());
+}
+
+TEST_CASE("no move onto a surface leaves less shape than allowed") {
+    // The wall between box and hole grows so thin that cells have to give way.
+    const double radius = 0.9;
+    const Projector projector = cavity_projector(radius);
+    const auto shape_of = [](const TetMesh& mesh, CellHandle c) {
+        const auto p = mesh.cell_points(c);
+        return shape(p[0], p[1], p[2], p[3]);
+    };
+    std::vector<std::size_t> n_short;
+    for (const double min_shape : {0.6, 0.3, 0.0005}) {
+        TetMesh mesh = cube_with_cavity(4, 0.6);
+        const TetMesh before = mesh;
+        std::vector<CellHandle> all;
+        for (const auto c : mesh.cells()) all.push_back(c);
+        BoundaryProjection projection(mesh, projector, min_shape);
+        projection.take_up(0, all);
+        projection.run();
+        projection.insist();
+        double worst = 1;
+        for (const CellHandle c : all) worst = std::min(worst, shape_of(before, c));
+        for (const CellHandle c : all) CHECK(shape_of(mesh, c) >= std::min(min_shape, worst) * (1 - 1e-12));
+        n_short.push_back(projection.n_waiting());
+        CHECK(projection.short_of_target().size() == projection.n_waiting());
+    }
+    CHECK(std::ranges::is_sorted(n_short, std::ranges::greater()));
+    CHECK(n_short.front() > 0);
+    TetMesh mesh = cube_with_cavity(4, 0.6);
+    for (const double bad : {0.0, -1.0, 1.5, std::nan("")})
+        CHECK_THROWS_AS(refine(mesh, SizeField(1), {.min_shape = bad}, &projector), maille::InputError);
 }
 
 TEST_CASE("smoothing moves nodes, but neither the boundary nor what divides the sets") {

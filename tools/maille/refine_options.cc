@@ -1,10 +1,13 @@
 #include "tools/maille/refine_options.hh"
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <numbers>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "volmesh/error.hh"
 #include "volmesh/measure.hh"
@@ -40,6 +43,26 @@ void refuse_too_many_cells(const volmesh::TetMesh& mesh, const refine::SizeField
                                      least_number, options.max_cells));
 }
 
+/// "12 vertices are short of hole/side, the farthest by 0.01 at (1, 2, 3)", and so on for each combination of
+/// surfaces.
+std::string words_for(const std::vector<refine::ShortOfTarget>& all) {
+    std::map<std::vector<std::string>, std::vector<const refine::ShortOfTarget*>> by_surfaces;
+    for (const refine::ShortOfTarget& each : all) by_surfaces[each.surfaces].push_back(&each);
+    std::vector<std::string> lines;
+    for (const auto& [surfaces, members] : by_surfaces) {
+        const refine::ShortOfTarget& farthest = **std::ranges::max_element(members, {}, [](const auto* each) {
+            return each->distance.value_or(std::numeric_limits<double>::infinity());
+        });
+        const std::string distance = farthest.distance ? fmt::format("by {:.3g}", *farthest.distance)
+                                                       : std::string("with no common point of them nearby");
+        lines.push_back(fmt::format("{} {} short of {}, the farthest {} at ({:.6g}, {:.6g}, {:.6g})",
+                                    members.size(), members.size() == 1 ? "vertex is" : "vertices are",
+                                    fmt::join(surfaces, " and "), distance, farthest.place.x(),
+                                    farthest.place.y(), farthest.place.z()));
+    }
+    return fmt::format("{}", fmt::join(lines, "; "));
+}
+
 }  // namespace
 
 const std::string& method_name(Method method) {
@@ -71,6 +94,12 @@ void add_refine_options(CLI::App& command, refine::RefineOptions& options) {
     command.add_option("--max-iterations", options.max_iterations, "Most passes (100)")
         ->check(CLI::PositiveNumber)
         ->type_name("N");
+    command
+        .add_option(
+            "--min-shape", options.min_shape,
+            "No move onto a surface leaves an element of lower gamma, unless one beside it was worse (0.0005)")
+        ->check(CLI::Range(1e-12, 1.0))
+        ->type_name("Q");
     command.add_flag("--smooth", options.smooth,
                      "Let new vertices inside the mesh move to better the elements");
 }
@@ -86,6 +115,8 @@ refine::RefineResult refine_with_progress(volmesh::TetMesh& mesh, const refine::
     if (!result.ended)
         progress.warn(fmt::format("refinement was stopped after {} passes, with elements left to refine",
                                   result.iterations));
+    if (!result.projection.short_of_target.empty())
+        progress.warn(words_for(result.projection.short_of_target));
     return result;
 }
 

@@ -12,7 +12,7 @@ namespace maille::tools {
 const std::string& method_name(refine::Method method);
 const std::string& order_name(refine::Order order);
 
-/// The options --method --order --ratio --gradation --max-iterations --smooth.
+/// The options --method --order --ratio --gradation --max-iterations --min-shape --smooth.
 void add_refine_options(CLI::App& command, refine::RefineOptions& options);
 
 /// Refines, with the passes told to `progress`, and says so on stderr where it was stopped before its end.

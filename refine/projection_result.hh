@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "volmesh/tet_mesh.hh"
+
+namespace maille::refine {
+
+/// A vertex that could not be brought onto all its surfaces.
+struct ShortOfTarget {
+    volmesh::VertexHandle vertex;
+    volmesh::Point place;
+    std::vector<std::string> surfaces;  ///< the names of all that it should lie on
+    std::optional<double> distance;     ///< to go; nothing where the surfaces have no common point nearby
+};
+
+struct ProjectionResult {
+    std::size_t moved = 0;
+    std::vector<ShortOfTarget> short_of_target;  ///< by vertex, ascending
+};
+
+}  // namespace maille::refine
