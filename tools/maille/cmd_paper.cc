@@ -62,10 +62,10 @@ void print_row(const PaperExample& example, const std::string& label, const char
                const Figure& figure) {
     fmt::print("{:<20}", label);
     for (const PaperRun& run : example.runs)
-        fmt::print("{:>13}", fmt::format(fmt::runtime(pattern), figure(run)));
+        fmt::print("{:>16}", fmt::format(fmt::runtime(pattern), figure(run)));
     fmt::print("\n{:<20}", "      in the paper");
     for (const PaperRun& run : example.printed_runs)
-        fmt::print("{:>13}", fmt::format(fmt::runtime(pattern), figure(run)));
+        fmt::print("{:>16}", fmt::format(fmt::runtime(pattern), figure(run)));
     fmt::print("\n");
 }
 
@@ -76,7 +76,7 @@ double two_digits_cut(double percent) {
 void print_table(const PaperExample& example) {
     fmt::print("{}\n{:<20}", example.title, "");
     for (const PaperRun& run : example.runs)
-        fmt::print("{:>13}", fmt::format("{}{}", method_name(run.method),
+        fmt::print("{:>16}", fmt::format("{}{}", method_name(run.method),
                                          run.order == refine::Order::none ? "" : "+sort"));
     fmt::print("\n");
     print_row(example, "iterations", "{}", [](const PaperRun& run) { return run.iterations; });
