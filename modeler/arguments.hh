@@ -54,6 +54,16 @@ class Arguments {
     std::map<std::string, const Value*, std::less<>> bound_;
 };
 
+/// Calls `make`, and gives the place of the node to an error that knows none.
+template <class Make>
+auto at_node(const Arguments& arguments, const Make& make) {
+    try {
+        return make();
+    } catch (const InputError& error) {
+        throw arguments.error(arguments.node().at, error.what());
+    }
+}
+
 /// " (did you mean 'cube'?)" where one of the names known is near to `word`, else nothing.
 std::string suggestion(std::string_view word, std::span<const std::string_view> known);
 

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "modeler/arguments.hh"
+#include "modeler/language_extrude.hh"
+#include "modeler/language_outline.hh"
 #include "modeler/language_solids.hh"
 #include "modeler/language_transforms.hh"
 #include "modeler/model.hh"
@@ -29,9 +31,7 @@ constexpr std::string_view attributes[] = {"name", "size", "material"};
 
 /// Nodes of OpenSCAD's dumps that make or use what this language has not.
 constexpr std::string_view unsupported[] = {
-    "linear_extrude", "rotate_extrude", "circle",     "square",    "polygon",
-    "text",           "import",         "surface",    "minkowski", "hull",
-    "offset",         "resize",         "projection", "roof",      "intersection_for",
+    "text", "import", "surface", "minkowski", "resize", "projection", "roof", "intersection_for",
 };
 
 /// Words of OpenSCAD's full language, which its dumps no longer hold.
@@ -103,6 +103,8 @@ class ModelMaker {
             return add_primitive(node, context, make_shape(node, file_, context.placement));
         }
         if (node.name == "halfspace") return add_halfspace(node, context);
+        if (const Extruder extrude = find_extruder(node.name))
+            return add_primitives(node, context, extrude(node, file_, context.placement));
         if (const TransformReader read = find_transform(node.name))
             return combine(Operation::join, trees_of(node.children, transformed(node, read, context)));
         if (is_one_of(node.name, attributes))
@@ -124,6 +126,12 @@ class ModelMaker {
     }
 
     InputError unknown(const Node& node) const {
+        if (is_flat_node(node.name))
+            return located_error(
+                file_, node.at,
+                fmt::format("'{}' is flat: it stands in a linear_extrude or rotate_extrude only", node.name));
+        if (node.name == "hull")
+            return located_error(file_, node.at, "'hull' is supported for flat shapes only, in an extrusion");
         if (is_one_of(node.name, unsupported))
             return located_error(file_, node.at, fmt::format("'{}' is not supported", node.name));
         if (is_one_of(node.name, full_language))
@@ -133,6 +141,7 @@ class ModelMaker {
                                              node.name));
         std::vector<std::string_view> known = solid_names();
         known.emplace_back("halfspace");
+        std::ranges::copy(extruder_names(), std::back_inserter(known));
         std::ranges::copy(transform_names(), std::back_inserter(known));
         std::ranges::copy(attributes, std::back_inserter(known));
         for (const auto& [name, operation] : operations) known.push_back(name);
@@ -181,6 +190,16 @@ class ModelMaker {
              .material = context.material,
              .size = context.size});
         return {.operation = Operation::leaf, .primitive = index};
+    }
+
+    /// The leaves of the shapes' tree are primitives of one name.
+    CsgTree add_primitives(const Node& node, Context context, const ShapeTree& shapes) {
+        if (context.name.empty()) context.name = fmt::format("{}{}", node.name, model_.primitives.size() + 1);
+        if (shapes.operation == Operation::leaf) return add_primitive(node, context, shapes.shape);
+        std::vector<CsgTree> children;
+        for (const ShapeTree& child : shapes.children)
+            children.push_back(add_primitives(node, context, child));
+        return combine(shapes.operation, std::move(children));
     }
 
     CsgTree add_halfspace(const Node& node, const Context& context) {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "modeler/arguments.hh"
-#include "modeler/openscad_facets.hh"
+#include "modeler/language_facets.hh"
 #include "modeler/shapes.hh"
 
 namespace maille::modeler {
@@ -15,48 +15,8 @@ namespace {
 
 using ShapePointer = std::shared_ptr<const Shape>;
 
-/// Calls `make`, and gives the place of the node to an error that knows none.
-template <typename Make>
-ShapePointer at_node(const Arguments& arguments, const Make& make) {
-    try {
-        return make();
-    } catch (const InputError& error) {
-        throw arguments.error(arguments.node().at, error.what());
-    }
-}
-
-FacetSettings facet_settings(const Arguments& arguments) {
-    const FacetSettings usual;
-    return {.fn = arguments.number("$fn", usual.fn),
-            .fa = arguments.number("$fa", usual.fa),
-            .fs = arguments.number("$fs", usual.fs)};
-}
-
-bool keeps_facets(Facets facets, const FacetSettings& settings) {
-    switch (facets) {
-        case Facets::keep:
-            return true;
-        case Facets::round:
-            return false;
-        case Facets::automatic:
-            break;
-    }
-    constexpr double least_prism = 3;
-    constexpr double most_prism = 8;
-    return settings.fn >= least_prism && settings.fn <= most_prism;
-}
-
 ShapePointer shape_of(FacetedSolid solid, const Eigen::Affine3d& frame) {
     return make_polyhedron(std::move(solid.points), std::move(solid.faces), std::move(solid.names), frame);
-}
-
-/// A radius that may be given by its diameter instead.
-double radius(const Arguments& arguments, std::string_view radius_name, std::string_view diameter_name) {
-    if (!arguments.has(diameter_name)) return arguments.number(radius_name);
-    if (arguments.has(radius_name))
-        throw arguments.error(diameter_name,
-                              fmt::format("give '{}' or '{}', not both", radius_name, diameter_name));
-    return arguments.number(diameter_name) / 2;
 }
 
 ShapePointer cube(const Node& node, const std::string& file, const Placement& placement) {
@@ -73,9 +33,7 @@ ShapePointer cube(const Node& node, const std::string& file, const Placement& pl
 
 ShapePointer sphere(const Node& node, const std::string& file, const Placement& placement) {
     const Arguments arguments(node, file, {"r", "d"});
-    const bool given = arguments.has("r") || arguments.has("d");
-    const double r = given ? radius(arguments, "r", "d") : 1;
-    if (!(r > 0)) throw arguments.error(arguments.has("d") ? "d" : "r", "the radius must be greater than 0");
+    const double r = radius_of_round(arguments);
     const FacetSettings settings = facet_settings(arguments);
     return at_node(arguments, [&] {
         if (!keeps_facets(placement.facets, settings)) return make_sphere(r, placement.frame);

@@ -84,12 +84,42 @@ TEST_CASE("unknown and unsupported nodes are named") {
         {"Sphere(1);", "1:1: unknown node 'Sphere' (did you mean 'sphere'?)"},
         {"frobnicate();", "1:1: unknown node 'frobnicate'"},
         {"cube(1); minkowski() { cube(1); sphere(1); }", "1:10: 'minkowski' is not supported"},
-        {"linear_extrude(height = 1) circle(1);", "1:1: 'linear_extrude' is not supported"},
-        {"polygon(points = [[0, 0]], paths = undef);", "1:1: 'polygon' is not supported"},
+        {"polygon(points = [[0, 0]], paths = undef);",
+         "1:1: 'polygon' is flat: it stands in a linear_extrude or rotate_extrude only"},
+        {"hull() cube(1);", "1:1: 'hull' is supported for flat shapes only, in an extrusion"},
+        {"linear_extrude(height = 1) cube(1);",
+         "1:28: 'cube' has no place in an extrusion: only flat shapes do (circle, square, polygon, offset, "
+         "hull), their unions, differences and intersections, and transforms"},
+        {"linear_extrude(height = 1) text(\"a\");",
+         "1:28: 'text' has no place in an extrusion: only flat shapes do (circle, square, polygon, offset, "
+         "hull), their unions, differences and intersections, and transforms"},
         {"text(\"a\");", "1:1: 'text' is not supported"},
         {"import(file = \"a.stl\");", "1:1: 'import' is not supported"},
         {"for(i = 1) cube(1);",
          "1:1: 'for' is not supported: have OpenSCAD write the .csg file (openscad -o part.csg part.scad)"},
+    });
+}
+
+TEST_CASE("extrusions that make no solid are refused") {
+    check_all({
+        {"linear_extrude(height = 0) square(1);",
+         "1:25: linear_extrude: 'height' must be greater than 0, not 0"},
+        {"linear_extrude() square(1);", "1:1: linear_extrude: 'height' is missing"},
+        {"linear_extrude(1, slices = 0) square(1);",
+         "1:28: linear_extrude: 'slices' must be a whole number from 1 to 2000, not 0"},
+        {"linear_extrude(1, scale = -1) square(1);", "1:27: linear_extrude: a scale must not be negative"},
+        {"linear_extrude(1) square(0);", "1:26: square: every side must be longer than 0"},
+        {"linear_extrude(1) circle(r = 0);", "1:30: circle: the radius must be greater than 0"},
+        {"linear_extrude(1) polygon([[0, 0], [1, 0], [2, 0]]);", "1:27: polygon: the polygon has no area"},
+        {"linear_extrude(1) polygon([[0, 0], [1, 0], [2, 1]], [[0, 1, 3]]);",
+         "1:61: polygon: there is no point 3: the 3 points count from 0"},
+        {"linear_extrude(1) offset() square(1);", "1:19: offset: give either 'r' or 'delta'"},
+        {"linear_extrude(1) scale([0, 1, 1]) square(1);",
+         "1:19: 'scale' flattens its children or has no inverse"},
+        {"linear_extrude(1);", " the model is empty: it has no solid"},
+        {"rotate_extrude() translate([-1, 0]) square(2);",
+         "1:1: rotate_extrude: the shape reaches across the axis x = 0, round which it is turned"},
+        {"rotate_extrude(angle = 0) square(2);", "1:24: rotate_extrude: the angle must not be 0"},
     });
 }
 

@@ -1,0 +1,158 @@
+#include "modeler/extrude.hh"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "modeler/openscad_facets.hh"
+#include "modeler/shapes.hh"
+#include "volmesh/error.hh"
+
+namespace maille::modeler {
+namespace {
+
+using Corner = std::uint32_t;
+
+/// A side between two layers: the edge from a to b below, from c to d above it, both along the loop.
+struct Quad {
+    Corner a, b, c, d;
+};
+
+/// A stack of images of a region: what both extrusions make, the one upwards, the other round z.
+class Stack {
+  public:
+    Stack(const PlaneRegion& region, std::size_t first_side) : region_(region), first_side_(first_side) {
+        for (const PlaneLoop& loop : region) n_corners_ += loop.size();
+    }
+
+    std::size_t n_layers() const { return points_.size() / n_corners_; }
+
+    void add_layer(const std::function<Point(const Point2&)>& image) {
+        for (const PlaneLoop& loop : region_)
+            for (const Point2& p : loop) points_.push_back(image(p));
+    }
+
+    /// Calls add(name, quad, whether the loop is a hole) for each edge of the region.
+    template <class Add>
+    void for_each_side(std::size_t below, std::size_t above, const Add& add) const {
+        std::size_t first = 0;
+        std::size_t side = first_side_;
+        for (const PlaneLoop& loop : region_) {
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const std::size_t j = (i + 1) % loop.size();
+                add(fmt::format("side{}", side++),
+                    Quad{corner(below, first + i), corner(below, first + j), corner(above, first + i),
+                         corner(above, first + j)},
+                    first > 0);
+            }
+            first += loop.size();
+        }
+    }
+
+    void add_face(std::vector<Corner> corners, std::string name) {
+        faces_.push_back({{std::move(corners)}, std::move(name)});
+    }
+
+    /// The region itself as a face, seen from its front or from its back.
+    void add_cap(std::size_t layer, bool is_front, const char* name) {
+        PolyhedronFace face{{}, name};
+        std::size_t first = 0;
+        for (const PlaneLoop& loop : region_) {
+            std::vector<Corner> corners;
+            for (std::size_t i = 0; i < loop.size(); ++i) corners.push_back(corner(layer, first + i));
+            if (!is_front) std::ranges::reverse(corners);
+            face.loops.push_back(std::move(corners));
+            first += loop.size();
+        }
+        faces_.push_back(std::move(face));
+    }
+
+    std::shared_ptr<const Shape> solid(const Eigen::Affine3d& frame) {
+        return make_polyhedron(std::move(points_), std::move(faces_), frame);
+    }
+
+  private:
+    Corner corner(std::size_t layer, std::size_t i) const {
+        return static_cast<Corner>(layer * n_corners_ + i);
+    }
+
+    const PlaneRegion& region_;
+    std::size_t first_side_;
+    std::size_t n_corners_ = 0;
+    std::vector<Point> points_;
+    std::vector<PolyhedronFace> faces_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Shape> linear_extrude(const PlaneRegion& region, const LinearExtrusion& extrusion,
+                                            std::size_t first_side, const Eigen::Affine3d& frame) {
+    Stack stack(region, first_side);
+    const double bottom = extrusion.center ? -extrusion.height / 2 : 0;
+    for (int k = 0; k <= extrusion.slices; ++k) {
+        const double part = static_cast<double>(k) / extrusion.slices;
+        const double angle = -extrusion.twist * part;
+        const double c = cos_degrees(angle), s = sin_degrees(angle);
+        const Point2 scale = Point2::Ones() + part * (extrusion.scale - Point2::Ones());
+        const double z = bottom + extrusion.height * part;
+        stack.add_layer([&](const Point2& p) {
+            return Point(scale.x() * (c * p.x() - s * p.y()), scale.y() * (s * p.x() + c * p.y()), z);
+        });
+    }
+    const bool is_flat = extrusion.twist == 0 && extrusion.scale.x() == extrusion.scale.y();
+    for (std::size_t k = 0; k + 1 < stack.n_layers(); ++k)
+        stack.for_each_side(k, k + 1, [&](const std::string& name, const Quad& quad, bool is_hole) {
+            const auto [a, b, c, d] = quad;
+            if (is_flat) {
+                stack.add_face({a, b, d, c}, name);
+            } else if ((extrusion.twist < 0) != is_hole) {
+                stack.add_face({a, b, d}, name);
+                stack.add_face({a, d, c}, name);
+            } else {
+                stack.add_face({a, b, c}, name);
+                stack.add_face({b, d, c}, name);
+            }
+        });
+    stack.add_cap(0, false, "bottom");
+    stack.add_cap(stack.n_layers() - 1, true, "top");
+    return stack.solid(frame);
+}
+
+std::shared_ptr<const Shape> rotate_extrude(const PlaneRegion& region, const RotateExtrusion& extrusion,
+                                            std::size_t first_side, const Eigen::Affine3d& frame) {
+    double least = 0, greatest = 0;
+    for (const PlaneLoop& loop : region)
+        for (const Point2& p : loop) {
+            least = std::min(least, p.x());
+            greatest = std::max(greatest, p.x());
+        }
+    const double on_axis = 1e-12 * std::max(-least, greatest);
+    if (least < -on_axis && greatest > on_axis)
+        throw InputError("the shape reaches across the axis x = 0, round which it is turned");
+
+    const bool is_full = extrusion.angle == 360;
+    const int n_layers = is_full ? extrusion.fragments : extrusion.fragments + 1;
+    Stack stack(region, first_side);
+    for (int k = 0; k < n_layers; ++k) {
+        const double angle =
+            (is_full ? 180 - 360.0 * k / extrusion.fragments : extrusion.angle * k / extrusion.fragments);
+        const double c = cos_degrees(angle), s = sin_degrees(angle);
+        stack.add_layer([&](const Point2& p) {
+            const double radius = std::abs(p.x()) <= on_axis ? 0 : p.x();
+            return Point(radius * c, radius * s, p.y());
+        });
+    }
+    const std::size_t n = stack.n_layers();
+    for (std::size_t k = 0; k + (is_full ? 0 : 1) < n; ++k)
+        stack.for_each_side(k, (k + 1) % n, [&](const std::string& name, const Quad& quad, bool) {
+            stack.add_face({quad.a, quad.b, quad.d, quad.c}, name);
+        });
+    if (!is_full) {
+        stack.add_cap(0, false, "start");
+        stack.add_cap(n - 1, true, "end");
+    }
+    return stack.solid(frame);
+}
+
+}  // namespace maille::modeler

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "modeler/csg_tree.hh"
+
+namespace maille::modeler {
+
+using Point2 = Eigen::Vector2d;
+using PlaneLoop = std::vector<Point2>;
+
+/// A connected piece of the plane: its outline, counter-clockwise, then its holes, clockwise.
+using PlaneRegion = std::vector<PlaneLoop>;
+
+/// A flat shape: regions that don't overlap.
+using Outline = std::vector<PlaneRegion>;
+
+/// What is inside an odd number of the loops, which may cross.
+Outline make_outline(const std::vector<PlaneLoop>& loops);
+
+/// Union, intersection, or the first without the others (`operation` is one of these). Corners of the shapes
+/// keep their coordinates to the bit; those where edges cross are right to about 1e-15 of the greatest.
+Outline combine(Operation operation, std::span<const Outline> shapes);
+
+/// Affine image; the map must not be singular.
+Outline transformed(Outline shape, const Eigen::Affine2d& map);
+
+enum class OffsetCorners { round, mitred, chamfered };
+
+/// The shape grown by `distance`, or shrunk where that is negative. Round corners have facets whose middles
+/// are at most `arc_tolerance` inside the true arc.
+Outline offset(const Outline& shape, double distance, OffsetCorners corners, double arc_tolerance);
+
+Outline convex_hull(std::span<const Outline> shapes);
+
+}  // namespace maille::modeler
