@@ -8,7 +8,9 @@
 
 #include "modeler/arrange_boxes.hh"
 #include "modeler/arrange_cluster.hh"
+#include "modeler/arrange_coarsen.hh"
 #include "modeler/arrange_label.hh"
+#include "modeler/arrange_restore.hh"
 #include "modeler/arrange_scene.hh"
 #include "modeler/arrange_self_intersection.hh"
 #include "modeler/arrange_simplify.hh"
@@ -113,10 +115,12 @@ void check_tree(const CsgTree& tree, std::size_t n_primitives) {
 Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tree,
                     const ArrangeOptions& options) {
     check_tree(tree, primitives.size());
-    Scene scene = gather(primitives);
-    const double weld_distance = tolerance(scene.complex, options.weld);
-    weld(scene, weld_distance);
-    if (scene.complex.facets.empty()) return {};
+    Scene fine = gather(primitives);
+    const double weld_distance = tolerance(fine.complex, options.weld);
+    weld(fine, weld_distance);
+    if (fine.complex.facets.empty()) return {};
+    const CoarseScene coarse = coarsen(fine, weld_distance);
+    const Scene& scene = coarse.scene;
     const std::vector<Pair> pairs = pairs_to_intersect(scene.complex, weld_distance);
     Arrangement result =
         arrange_pairs(scene, positions_on_planes(scene.complex, pairs, weld_distance), pairs, tree);
@@ -129,6 +133,9 @@ Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tr
                 "closed; move or turn a primitive a little");
         const auto crossing = pairs_to_repair(result.complex);
         if (!crossing) {
+            Arrangement restored = restore(result, fine, coarse, weld_distance);
+            if (is_closed(restored.complex) && !find_self_intersection(restored.complex))
+                result = std::move(restored);
             mark_whole_facets(result, primitives);
             return result;
         }

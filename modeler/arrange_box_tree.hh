@@ -7,7 +7,7 @@
 
 namespace maille::modeler::detail {
 
-/// A hierarchy of boxes, to find those near a segment.
+/// A hierarchy of boxes, to find those near a segment or a box.
 class BoxTree {
   public:
     explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);
@@ -23,6 +23,26 @@ class BoxTree {
             const Node& node = nodes_[stack.back()];
             stack.pop_back();
             if (!is_near(node.box, from.array(), inverse, margin)) continue;
+            if (node.count > 0) {
+                for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+                    if (!f(order_[i])) return false;
+            } else {
+                stack.push_back(node.first + 1);
+                stack.push_back(node.first);
+            }
+        }
+        return true;
+    }
+
+    /// The same for the boxes that meet another.
+    template <class F>
+    bool visit_box(const Eigen::AlignedBox3d& box, const F& f) const {
+        if (nodes_.empty()) return true;
+        std::vector<std::uint32_t> stack{0};
+        while (!stack.empty()) {
+            const Node& node = nodes_[stack.back()];
+            stack.pop_back();
+            if (!node.box.intersects(box)) continue;
             if (node.count > 0) {
                 for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
                     if (!f(order_[i])) return false;

@@ -1,9 +1,11 @@
 #include "modeler/arrange_intersect.hh"
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 #include <unordered_map>
 
+#include "modeler/arrange_filter.hh"
 #include "modeler/arrange_projection.hh"
 #include "modeler/arrange_scene.hh"
 
@@ -28,6 +30,7 @@ class Intersector {
             if (!contacts_.degenerate[i]) place_corners(j, i);
             return;
         }
+        if (is_beyond(i, j) || is_beyond(j, i)) return;
         const Signs si = sides(i, j);
         if (on_one_side(si)) return;
         const Signs sj = sides(j, i);
@@ -59,6 +62,9 @@ class Intersector {
     /// Orientation of four of the scene's points. What is known to be zero is not computed.
     CGAL::Sign orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
         if (a == b || a == c || a == d || b == c || b == d || c == d) return CGAL::ZERO;
+        const auto& near = positions_.near;
+        const int certain = certain_orientation(near[a], near[b], near[c], near[d], positions_.slack);
+        if (certain != 0) return CGAL::sign(certain);
         if (positions_.coplanar(std::array{a, b, c, d})) return CGAL::ZERO;
         return CGAL::orientation(point(a), point(b), point(c), point(d));
     }
@@ -69,6 +75,16 @@ class Intersector {
         Signs s{};
         for (std::size_t k = 0; k < 3; ++k) s[k] = orientation(a, b, c, corners(i)[k]);
         return s;
+    }
+
+    /// Whether all corners of i are on one side of facet j, for sure: most pairs end here.
+    bool is_beyond(std::uint32_t i, std::uint32_t j) const {
+        const auto& near = positions_.near;
+        const auto& [a, b, c] = corners(j);
+        int sum = 0;
+        for (const auto v : corners(i))
+            sum += certain_orientation(near[a], near[b], near[c], near[v], positions_.slack);
+        return std::abs(sum) == 3;
     }
 
     static bool on_one_side(const Signs& s) { return s[0] != CGAL::ZERO && s[0] == s[1] && s[1] == s[2]; }

@@ -1,9 +1,11 @@
 #include "modeler/arrange_label.hh"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
+#include "modeler/arrange_filter.hh"
 #include "modeler/arrange_ray.hh"
 #include "modeler/arrange_scene.hh"
 #include "modeler/arrange_union_find.hh"
@@ -60,6 +62,7 @@ class Labeller {
           tree_(tree),
           boxes_(facet_boxes(scene)),
           length_(4 * diagonal(scene)),
+          slack_(std::max(positions.slack, 4 * std::numeric_limits<double>::epsilon() * reach(scene))),
           degenerate_(degenerate_facets(scene, positions)) {
         Region last = outside;
         for (const Facet& f : scene.facets) last = std::max({last, f.front, f.back});
@@ -92,13 +95,19 @@ class Labeller {
         return boxes;
     }
 
+    static double reach(const FacetComplex& scene) {
+        double largest = 0;
+        for (const auto& p : scene.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+        return largest;
+    }
+
     /// Sums what the ray from the middle of the piece crosses. Says whether it leaves to the front of the
     /// piece, or nothing if it meets an edge.
     std::optional<bool> shoot(const Piece& piece, std::span<const Cover> covers, int attempt) {
         const ExactPoint &a = registry_[piece.corners[0]], &b = registry_[piece.corners[1]],
                          &c = registry_[piece.corners[2]];
         const ExactPoint start = CGAL::barycenter(a, 5, b, 7, c, 11);
-        const Eigen::Vector3d from = approximate(start, 1e-7 * length_),
+        const Eigen::Vector3d from = approximate(start, slack_ / 4),
                               to = from + length_ * ray_direction(attempt);
         const ExactPoint end(to.x(), to.y(), to.z());
         const auto side = CGAL::orientation(a, b, c, end);
@@ -110,8 +119,13 @@ class Labeller {
                 return true;
             const Facet& facet = scene_.facets[f];
             const auto& v = facet.vertices;
-            const Hit h = hit<Exact>(
-                start, end, {positions_.points[v[0]], positions_.points[v[1]], positions_.points[v[2]]});
+            const std::array near{positions_.near[v[0]], positions_.near[v[1]], positions_.near[v[2]]};
+            const auto certain = certain_hit(from, to, near, slack_);
+            const Hit h =
+                certain
+                    ? *certain
+                    : hit<Exact>(start, end,
+                                 {positions_.points[v[0]], positions_.points[v[1]], positions_.points[v[2]]});
             if (h == Hit::leaving) wind(facet, 1);
             if (h == Hit::entering) wind(facet, -1);
             return h != Hit::unclear;
@@ -138,6 +152,7 @@ class Labeller {
     const CsgTree& tree_;
     BoxTree boxes_;
     double length_;
+    double slack_;  ///< by which points in doubles are off at most
     std::vector<bool> degenerate_;
     std::vector<int> windings_;  ///< of the primitives, around the place in question
 };

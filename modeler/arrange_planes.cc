@@ -285,6 +285,7 @@ ExactPositions positions_as_given(const FacetComplex& complex) {
     ExactPositions result;
     result.points.reserve(complex.points.size());
     for (const auto& p : complex.points) result.points.push_back(exact(p));
+    result.near = complex.points;
     result.planes_of_point.resize(complex.points.size());
     result.plane_of_facet.assign(complex.facets.size(), none);
     return result;
@@ -309,9 +310,12 @@ ExactPositions positions_on_planes(const FacetComplex& complex, std::span<const 
         for (const auto v : planes[i].vertices) candidates[v].push_back(i);
     }
     const Lifter lifter(planes, result.planes, tolerance);
+    for (const auto& p : complex.points) result.slack = std::max(result.slack, p.cwiseAbs().maxCoeff());
+    result.slack = 4 * std::numeric_limits<double>::epsilon() * (result.slack + 64 * tolerance);
     for (std::uint32_t v = 0; v < candidates.size(); ++v) {
         if (candidates[v].empty()) continue;
         result.points[v] = lifter.lift(complex.points[v], candidates[v]);
+        result.near[v] = approximate(result.points[v], result.slack / 4);
         for (const auto i : candidates[v])
             if (result.planes[i].has_on(result.points[v])) result.planes_of_point[v].push_back(i);
     }

@@ -15,6 +15,8 @@ namespace maille::modeler::detail {
 /// are moved onto them. Knowing the planes spares most of the expensive proofs that something is zero.
 struct ExactPositions {
     std::vector<ExactPoint> points;
+    std::vector<Eigen::Vector3d> near;  ///< the same in doubles
+    double slack = 0;                   ///< by which their coordinates are off at most
     std::vector<ExactPlane> planes;
     std::vector<Eigen::Vector3d> normals;  ///< of the planes, in doubles
     std::vector<std::vector<std::uint32_t>>

@@ -3,13 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
+#include <optional>
 
 #include <CGAL/Origin.h>
 #include <CGAL/enum.h>
 #include <Eigen/Geometry>
 
 #include "modeler/arrange_box_tree.hh"
+#include "modeler/arrange_filter.hh"
 
 namespace maille::modeler::detail {
 
@@ -39,6 +40,23 @@ Hit hit(const typename Kernel::Point_3& p, const typename Kernel::Point_3& q,
     if (height == CGAL::ZERO) return Hit::start;
     const bool is_behind = height == CGAL::NEGATIVE;
     if (is_behind != left) return Hit::miss;
+    return left ? Hit::leaving : Hit::entering;
+}
+
+/// The same where doubles suffice to tell; their coordinates may be off by `slack`.
+inline std::optional<Hit> certain_hit(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                                      const std::array<Eigen::Vector3d, 3>& t, double slack) {
+    bool left = false, right = false, unsure = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int side = certain_orientation(p, q, t[k], t[(k + 1) % 3], slack);
+        left |= side > 0;
+        right |= side < 0;
+        unsure |= side == 0;
+        if (left && right) return Hit::miss;
+    }
+    const int height = certain_orientation(t[0], t[1], t[2], p, slack);
+    if (unsure || height == 0) return std::nullopt;
+    if ((height < 0) != left) return Hit::miss;
     return left ? Hit::leaving : Hit::entering;
 }
 
