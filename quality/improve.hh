@@ -11,13 +11,13 @@ namespace maille::quality {
 
 struct ImproveOptions {
     int max_passes = 12;
-    /// Cells whose objective (objective.hh) is at least this are left as they are; .34 stands for angles of
-    /// 20 and 146 degrees and beta = .4.
-    double good_enough = 0.34;
+    /// Cells whose objective (objective.hh) is at least this are left as they are; .45 stands for angles of
+    /// 26.7 and 132 degrees and beta = .52.
+    double good_enough = 0.45;
     /// Whether connectivity may change: by flips, removal of edges and faces, edge collapse and edge split.
     bool may_change_cells = true;
     /// Sweeps over all vertices that may move, to raise the mean of beta.
-    int mean_sweeps = 2;
+    int mean_sweeps = 1;
     /// Wanted edge lengths; a move makes no cell longer than `ratio` times the size at its centroid, unless
     /// it takes the place of one that is as far beyond.
     const WantedSize* size = nullptr;

@@ -11,6 +11,12 @@ namespace maille::quality {
 
 using volmesh::TetMesh;
 
+namespace {
+
+constexpr Shape perfect{1, 1};
+
+}  // namespace
+
 Improver::Improver(TetMesh& mesh, const ImproveOptions& options, const volmesh::Projector* projector)
     : mesh_(mesh),
       options_(options),
@@ -19,34 +25,36 @@ Improver::Improver(TetMesh& mesh, const ImproveOptions& options, const volmesh::
       freedoms_(mesh, projector),
       freedom_at_(mesh.n_vertices(), 0),
       known_freedoms_(2),
-      quality_(mesh.n_cells(), 1),
+      shapes_(mesh.n_cells(), perfect),
       tried_(mesh.n_cells(), 0),
       changed_(mesh.n_vertices(), 1) {
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mesh.n_cells(), 4096), [&](const auto& range) {
         for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
             if (mesh.is_deleted(CellHandle(i))) continue;
             const auto p = mesh.cell_points(CellHandle(i));
-            quality_[i] = objective(p[0], p[1], p[2], p[3]);
+            shapes_[i] = shape(p[0], p[1], p[2], p[3]);
         }
     });
     result_.worst_before = worst();
 }
 
 double Improver::worst() const {
-    return quality_.empty() ? 1 : *std::ranges::min_element(quality_);
+    double least = 1;
+    for (const Shape& shape : shapes_) least = std::min(least, shape.objective);
+    return least;
 }
 
 std::size_t Improver::pass(bool all_moves) {
     std::vector<std::uint32_t> bad;
     for (std::uint32_t i = 0; i < mesh_.n_cells(); ++i)
-        if (quality_[i] < options_.good_enough) bad.push_back(i);
+        if (shapes_[i].objective < options_.good_enough) bad.push_back(i);
     std::ranges::sort(bad, [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(quality_[a], a) < std::pair(quality_[b], b);
+        return std::pair(shapes_[a].objective, a) < std::pair(shapes_[b].objective, b);
     });
     const std::size_t before = result_.edits();
     for (std::uint32_t i : bad) {
         const CellHandle c(i);
-        if (mesh_.is_deleted(c) || quality_[i] >= options_.good_enough) continue;
+        if (mesh_.is_deleted(c) || shapes_[i].objective >= options_.good_enough) continue;
         const auto has_changed = [&](VertexHandle v) { return changed_[v.idx()] > tried_[i]; };
         if (!all_moves && !std::ranges::any_of(mesh_.cell_vertices(c), has_changed)) continue;
         tried_[i] = now_;
@@ -61,7 +69,7 @@ bool Improver::improve_cell(CellHandle c, bool all_moves) {
     bool has_moved = false;
     for (VertexHandle v : mesh_.cell_vertices(c)) {
         has_moved |= smooth(v);
-        if (quality_[c.idx()] >= options_.good_enough) return true;
+        if (shapes_[c.idx()].objective >= options_.good_enough) return true;
     }
     if (has_moved || !all_moves || !options_.may_change_cells) return has_moved;
     return collapse(c) || split(c);
@@ -69,14 +77,14 @@ bool Improver::improve_cell(CellHandle c, bool all_moves) {
 
 double Improver::quality(const CellList& cells) const {
     double least = std::numeric_limits<double>::infinity();
-    for (CellHandle c : cells) least = std::min(least, quality_[c.idx()]);
+    for (CellHandle c : cells) least = std::min(least, shapes_[c.idx()].objective);
     return least;
 }
 
-const Freedom& Improver::freedom(VertexHandle v) {
+const Freedom& Improver::freedom(VertexHandle v, const CellList& cells) {
     std::uint32_t& at = freedom_at_[v.idx()];
     if (at == 0) {
-        Freedom found = freedoms_(v, mesh_.vc_range(v));
+        Freedom found = freedoms_(v, cells);
         at = found.is_free() ? 1 : static_cast<std::uint32_t>(known_freedoms_.size());
         if (!found.is_free()) known_freedoms_.push_back(std::move(found));
     }
@@ -94,19 +102,21 @@ Bases Improver::bases_at(VertexHandle v, const CellList& cells) const {
 
 void Improver::settle(const CellList& changed, std::uint32_t first_new) {
     ++now_;
-    quality_.resize(mesh_.n_cells(), 1);
+    shapes_.resize(mesh_.n_cells(), perfect);
     tried_.resize(mesh_.n_cells(), 0);
     changed_.resize(mesh_.n_vertices(), 0);
     freedom_at_.resize(mesh_.n_vertices(), 0);
     const auto measure = [&](CellHandle c) {
-        quality_[c.idx()] = 1;
-        if (mesh_.is_deleted(c)) return;
         const auto p = mesh_.cell_points(c);
-        quality_[c.idx()] = objective(p[0], p[1], p[2], p[3]);
-        for (VertexHandle v : mesh_.cell_vertices(c)) changed_[v.idx()] = now_;
+        note_shape(c, mesh_.is_deleted(c) ? perfect : shape(p[0], p[1], p[2], p[3]));
     };
     for (CellHandle c : changed) measure(c);
     for (std::uint32_t i = first_new; i < mesh_.n_cells(); ++i) measure(CellHandle(i));
+}
+
+void Improver::note_shape(CellHandle c, const Shape& shape) {
+    shapes_[c.idx()] = shape;
+    for (VertexHandle v : mesh_.cell_vertices(c)) changed_[v.idx()] = now_;
 }
 
 double Improver::excess(const std::array<Point, 4>& cell) const {

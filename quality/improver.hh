@@ -40,9 +40,11 @@ class Improver {
     // improver.cc
     bool improve_cell(CellHandle c, bool all_moves);
     double quality(const CellList& cells) const;
-    const Freedom& freedom(VertexHandle v);
+    const Freedom& freedom(VertexHandle v, const CellList& cells);
     Bases bases_at(VertexHandle v, const CellList& cells) const;
+    /// Notes the new shapes of cells that have changed and of those from first_new on.
     void settle(const CellList& changed, std::uint32_t first_new);
+    void note_shape(CellHandle c, const Shape& shape);
     /// How far the longest edge is beyond what the size allows, at least 1; 1 where no size is given.
     double excess(const std::array<Point, 4>& cell) const;
     double excess(const CellList& cells) const;
@@ -85,7 +87,7 @@ class Improver {
     /// Place in known_freedoms_ by vertex; 0: not known yet, 1: free.
     std::vector<std::uint32_t> freedom_at_;
     std::deque<Freedom> known_freedoms_;
-    std::vector<double> quality_;         ///< of each cell
+    std::vector<Shape> shapes_;           ///< of each cell; perfect where it is deleted
     std::vector<std::uint32_t> tried_;    ///< when each cell was last tried
     std::vector<std::uint32_t> changed_;  ///< when a cell at each vertex last changed
     std::uint32_t now_ = 1;

@@ -243,7 +243,7 @@ std::optional<Improver::FaceRemoval> Improver::face_removal(CellHandle c, int fa
 bool Improver::flip(CellHandle c) {
     std::optional<EdgeRemoval> best_edge;
     std::optional<FaceRemoval> best_face;
-    double floor = quality_[c.idx()] + least_gain;
+    double floor = shapes_[c.idx()].objective + least_gain;
     for (int e = 0; e < 6; ++e)
         if (auto found = edge_removal(c, e, floor)) {
             floor = found->quality;

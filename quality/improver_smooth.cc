@@ -27,9 +27,9 @@ IsAllowed Improver::allowed_places(VertexHandle v, const CellList& cells, const 
 }
 
 bool Improver::smooth(VertexHandle v) {
-    const Freedom& bound = freedom(v);
-    if (bound.is_fixed) return false;
     const CellList cells = mesh_.vc_range(v);
+    const Freedom& bound = freedom(v, cells);
+    if (bound.is_fixed) return false;
     const Bases bases = bases_at(v, cells);
     const Point start = mesh_.point(v);
     const auto place =
@@ -42,37 +42,46 @@ bool Improver::smooth(VertexHandle v) {
 }
 
 void Improver::raise_mean() {
-    const auto sum_of_beta = [](const Point& p, const Bases& bases) {
-        double sum = 0;
-        for (const Base& base : bases) sum += beta(tet_geometry(p, base[0], base[1], base[2]));
-        return sum;
-    };
+    boost::container::small_vector<Shape, 48> found;
     for (std::uint32_t i = 0; i < mesh_.n_vertices(); ++i) {
         const VertexHandle v(i);
-        if (mesh_.is_deleted(v) || !freedom(v).is_free()) continue;
+        if (mesh_.is_deleted(v)) continue;
         const CellList cells = mesh_.vc_range(v);
+        if (!freedom(v, cells).is_free()) continue;
+        double floor = options_.good_enough;
+        double before = 0;
+        // The mean of the cells' centroids, weighted by volume.
         const Bases bases = bases_at(v, cells);
         const Point start = mesh_.point(v);
-        // The mean of the cells' centroids, weighted by volume.
         Point target = Point::Zero();
         double total = 0;
-        for (const Base& base : bases) {
-            const double volume = (base[0] - start).dot((base[1] - start).cross(base[2] - start));
-            target += volume * (start + base[0] + base[1] + base[2]) / 4;
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            const auto& [p, q, r] = bases[k];
+            const double volume = (p - start).dot((q - start).cross(r - start));
+            target += volume * (start + p + q + r) / 4;
             total += volume;
+            const Shape& shape = shapes_[cells[k].idx()];
+            floor = std::min(floor, shape.objective);
+            before += shape.beta;
         }
         target /= total;
-        const double floor = std::min(quality(cells), options_.good_enough);
-        const double before = sum_of_beta(start, bases);
-        const IsAllowed is_allowed = allowed_places(v, cells, freedom(v));
+        const IsAllowed is_allowed = allowed_places(v, cells, freedom(v, cells));
         for (double part : {1.0, 0.4}) {
-            const Point p = start + part * (target - start);
-            if (!(least_objective(p, bases, floor) > floor) || !(sum_of_beta(p, bases) > before) ||
-                !is_allowed(p))
+            const Point place = start + part * (target - start);
+            found.clear();
+            double after = 0;
+            for (const auto& [p, q, r] : bases) {
+                found.push_back(shape(place, p, q, r));
+                after += found.back().beta;
+                if (!(found.back().objective > floor)) break;
+            }
+            if (found.size() < bases.size() || !(found.back().objective > floor) || !(after > before) ||
+                !is_allowed(place))
                 continue;
-            mesh_.set_point(v, p);
+            mesh_.set_point(v, place);
             ++result_.moves;
-            settle(cells, mesh_.n_cells());
+            ++now_;
+            for (std::size_t k = 0; k < cells.size(); ++k) note_shape(cells[k], found[k]);
             break;
         }
     }

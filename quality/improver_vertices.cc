@@ -22,9 +22,9 @@ double longest_edge_squared(const std::array<Point, 4>& p) {
 }  // namespace
 
 std::optional<Improver::Collapse> Improver::collapse_of(VertexHandle gone, VertexHandle heir, double floor) {
-    const Freedom& bound = freedom(gone);
-    if (bound.is_fixed) return std::nullopt;
     const CellList cells = mesh_.vc_range(gone);
+    const Freedom& bound = freedom(gone, cells);
+    if (bound.is_fixed) return std::nullopt;
     floor = std::max(floor, quality(cells) + least_gain);
     const Point& to = mesh_.point(heir);
     double worst = std::numeric_limits<double>::infinity();
@@ -55,7 +55,7 @@ std::optional<Improver::Collapse> Improver::collapse_of(VertexHandle gone, Verte
 bool Improver::collapse(CellHandle c) {
     std::optional<Collapse> best;
     const auto v = mesh_.cell_vertices(c);
-    double floor = quality_[c.idx()] + least_gain;
+    double floor = shapes_[c.idx()].objective + least_gain;
     for (const auto& [i, j] : volmesh::tet::edge_vertices)
         for (const auto& [gone, heir] : {std::pair(v[i], v[j]), std::pair(v[j], v[i])})
             if (auto found = collapse_of(gone, heir, floor)) {

@@ -34,6 +34,34 @@ double dihedral(const TetGeometry& t, int edge) {
     return degrees(std::atan2(6 * t.volume * t.lengths[edge], -t.normal_products[edge]));
 }
 
+/// The edges at each vertex, each before the edge opposite it in the face that it spans with the next: at a
+/// vertex with edges x, y and z, the pairs (x, y), (y, z), (z, x) span the faces with the third sides listed.
+struct Corner {
+    std::array<int, 3> edges;
+    std::array<int, 3> third_sides;
+};
+constexpr std::array<Corner, 4> corners{{{{0, 1, 2}, {3, 5, 4}},    // ab ac ad; bc cd bd
+                                         {{0, 3, 4}, {1, 5, 2}},    // ab bc bd; ac cd ad
+                                         {{1, 3, 5}, {0, 4, 2}},    // ac bc cd; ab bd ad
+                                         {{2, 4, 5}, {0, 3, 1}}}};  // ad bd cd; ab bc ac
+
+double product_of_edges(const TetGeometry& t, const Corner& corner) {
+    const auto& [x, y, z] = corner.edges;
+    return t.lengths[x] * t.lengths[y] * t.lengths[z];
+}
+
+/// tan(angle / 2) = 6 V / (x y z + (x.y) z + (y.z) x + (z.x) y), x, y and z being the edges from the corner.
+double solid_angle(const TetGeometry& t, const Corner& corner) {
+    double below = product_of_edges(t, corner);
+    for (int i = 0; i < 3; ++i) {
+        const double x = t.lengths[corner.edges[i]];
+        const double y = t.lengths[corner.edges[(i + 1) % 3]];
+        const double third = t.lengths[corner.third_sides[i]];
+        below += (x * x + y * y - third * third) / 2 * t.lengths[corner.edges[(i + 2) % 3]];
+    }
+    return 2 * std::atan2(6 * t.volume, below);
+}
+
 }  // namespace
 
 TetGeometry tet_geometry(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -145,6 +173,42 @@ double dihedral_max(const TetGeometry& t) {
     double angle = 0;
     for (int edge = 0; edge < 6; ++edge) angle = std::max(angle, dihedral(t, edge));
     return angle;
+}
+
+double solid_angle_min(const TetGeometry& t) {
+    if (!(t.volume > 0)) return 0;
+    double angle = 2 * std::numbers::pi;
+    for (const Corner& corner : corners) angle = std::min(angle, solid_angle(t, corner));
+    return angle;
+}
+
+double solid_angle_max(const TetGeometry& t) {
+    if (!(t.volume > 0)) return 2 * std::numbers::pi;
+    double angle = 0;
+    for (const Corner& corner : corners) angle = std::max(angle, solid_angle(t, corner));
+    return angle;
+}
+
+double aspect(const TetGeometry& t) {
+    const double least_height = ratio(3 * t.volume, *std::ranges::max_element(t.areas));
+    return std::numbers::sqrt3 / std::numbers::sqrt2 * ratio(least_height, t.longest_edge);
+}
+
+double condition(const TetGeometry& t) {
+    double squares = 0;
+    for (double area : t.areas) squares += area * area;
+    return 18 * ratio(t.volume, std::sqrt(squares) * std::sqrt(6.0) * t.rms_edge);
+}
+
+double mean_ratio(const TetGeometry& t) {
+    const double root = std::cbrt(3 * t.volume);
+    return 2 * ratio(root * std::abs(root), t.rms_edge * t.rms_edge);
+}
+
+double scaled_jacobian(const TetGeometry& t) {
+    double product = 0;
+    for (const Corner& corner : corners) product = std::max(product, product_of_edges(t, corner));
+    return 6 * std::numbers::sqrt2 * ratio(t.volume, product);
 }
 
 double phi(const TetGeometry& t, double size) {

@@ -12,7 +12,8 @@
 /// regular tetrahedron; the constants are worked out anew, as some are misprinted there. With finite points
 /// no function here gives NaN: a flat tetrahedron has volume, beta, sigma, kappa, alpha and gamma 0, an
 /// inverted one has them negative, with the absolute values of its mirror image; where all four points
-/// coincide omega, tau and phi are 0 too.
+/// coincide omega, tau and phi are 0 too. Those that other programs use besides (aspect to mean_ratio) keep
+/// to the same: 1 for the regular tetrahedron, 0 for a flat one, negative for an inverted one.
 namespace maille::quality {
 
 using Point = Eigen::Vector3d;
@@ -72,6 +73,24 @@ double gamma(const TetGeometry& t);
 /// worst there are.
 double dihedral_min(const TetGeometry& t);
 double dihedral_max(const TetGeometry& t);
+
+/// The smallest and the largest solid angle, in steradians (the regular tetrahedron has .551286), after A.
+/// van Oosterom, J. Strackee, "The solid angle of a plane triangle", 1983. A flat or inverted tetrahedron has
+/// 0 and 2 pi, the worst there are.
+double solid_angle_min(const TetGeometry& t);
+double solid_angle_max(const TetGeometry& t);
+
+/// sqrt(3/2) times the least height over Lmax: the inverse of the aspect ratio.
+double aspect(const TetGeometry& t);
+/// 18 V / sqrt(sum of squared edges, times that of squared areas): 3 over the condition number, in the
+/// Frobenius norm, of the map from the regular tetrahedron. After P. M. Knupp, "Algebraic mesh quality
+/// metrics", 2001.
+double condition(const TetGeometry& t);
+/// 12 (3 V)^(2/3) / sum of squared edges, the mean ratio of the same map's singular values. After A. Liu, B.
+/// Joe, "Relationship between tetrahedron shape measures", 1994, and Knupp.
+double mean_ratio(const TetGeometry& t);
+/// sqrt(2) 6 V over the largest product of the three edges at a vertex. After Knupp, as Verdict has it.
+double scaled_jacobian(const TetGeometry& t);
 
 // ---- size
 // ---------------------------------------------------------------------------------------------------------

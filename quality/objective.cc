@@ -74,9 +74,10 @@ double weighted_beta(const Frame& t) {
 
 }  // namespace
 
-double objective(const Point& a, const Point& b, const Point& c, const Point& d) {
+Shape shape(const Point& a, const Point& b, const Point& c, const Point& d) {
     const Frame t(a, b, c, d);
-    if (!(t.volume > 0)) return t.gamma();
+    const double weighted = weighted_beta(t);
+    if (!(t.volume > 0)) return {t.gamma(), -weighted / beta_weight};
     double least = std::numeric_limits<double>::infinity();
     const auto add = [&](double square, const std::array<int, 2>& at) {
         const auto [i, j] = at;
@@ -87,7 +88,11 @@ double objective(const Point& a, const Point& b, const Point& c, const Point& d)
         add(t.spoke_squares[i], faces_at_spoke[i]);
         add(t.rim_squares[i], faces_at_rim[i]);
     }
-    return std::min(t.volume * std::sqrt(least), weighted_beta(t));
+    return {std::min(t.volume * std::sqrt(least), weighted), weighted / beta_weight};
+}
+
+double objective(const Point& a, const Point& b, const Point& c, const Point& d) {
+    return shape(a, b, c, d).objective;
 }
 
 double least_objective(const Point& p, const Bases& bases, double enough) {

@@ -21,6 +21,12 @@ inline constexpr double beta_weight = sine_of_15 / 0.3;
 
 double objective(const Point& a, const Point& b, const Point& c, const Point& d);
 
+/// The objective together with beta.
+struct Shape {
+    double objective, beta;
+};
+Shape shape(const Point& a, const Point& b, const Point& c, const Point& d);
+
 /// The face of a cell that a vertex sees: with the vertex in front it is the cell, positively oriented.
 using Base = std::array<Point, 3>;
 using Bases = boost::container::small_vector<Base, 48>;

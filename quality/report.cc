@@ -80,8 +80,10 @@ double wanted_size(const WantedSize& size, const Point& p, std::uint32_t cell) {
 }
 
 Values measure(const TetGeometry& t, double phi_value) {
-    return {beta(t),  sigma(t), omega(t),  tau(t),          kappa(t),
-            alpha(t), gamma(t), phi_value, dihedral_min(t), dihedral_max(t)};
+    return {beta(t),         sigma(t),        omega(t),           tau(t),
+            kappa(t),        alpha(t),        gamma(t),           phi_value,
+            dihedral_min(t), dihedral_max(t), solid_angle_min(t), solid_angle_max(t),
+            aspect(t),       condition(t),    mean_ratio(t),      scaled_jacobian(t)};
 }
 
 std::uint32_t bin(const MeasureInfo& info, double value) {

@@ -24,7 +24,13 @@ enum class Measure : std::uint8_t {
     gamma,
     phi,
     dihedral_min,
-    dihedral_max
+    dihedral_max,
+    solid_angle_min,
+    solid_angle_max,
+    aspect,
+    condition,
+    mean_ratio,
+    scaled_jacobian
 };
 
 /// How a measure is told: its name in tables and JSON, and the bins of its histogram, equal parts of [low,
@@ -36,7 +42,7 @@ struct MeasureInfo {
     std::uint32_t bins;
 };
 
-inline constexpr std::array<MeasureInfo, 10> measure_infos{{
+inline constexpr std::array<MeasureInfo, 16> measure_infos{{
     {Measure::beta, "beta", 0, 1, 20},
     {Measure::sigma, "sigma", 0, 1, 20},
     {Measure::omega, "omega", 0, 1.25, 25},
@@ -47,6 +53,12 @@ inline constexpr std::array<MeasureInfo, 10> measure_infos{{
     {Measure::phi, "phi", 0, 2, 20},
     {Measure::dihedral_min, "dihedral_min", 0, 180, 36},
     {Measure::dihedral_max, "dihedral_max", 0, 180, 36},
+    {Measure::solid_angle_min, "solid_angle_min", 0, 1, 20},
+    {Measure::solid_angle_max, "solid_angle_max", 0, 6.4, 32},
+    {Measure::aspect, "aspect", 0, 1, 20},
+    {Measure::condition, "condition", 0, 1, 20},
+    {Measure::mean_ratio, "mean_ratio", 0, 1, 20},
+    {Measure::scaled_jacobian, "scaled_jacobian", 0, 1, 20},
 }};
 
 /// Minimum, mean and maximum over the cells, equation (7) of the paper that measures.hh names. All 0 without

@@ -19,10 +19,12 @@ TetGeometry geometry(const Tet& p) {
 }
 
 /// All dimensionless measures.
-std::array<double, 10> shape(const Tet& p) {
+std::array<double, 16> shape(const Tet& p) {
     const TetGeometry t = geometry(p);
-    return {beta(t),  sigma(t), omega(t),        tau(t),          kappa(t),
-            alpha(t), gamma(t), radius_ratio(t), dihedral_min(t), dihedral_max(t)};
+    return {beta(t),         sigma(t),        omega(t),           tau(t),
+            kappa(t),        alpha(t),        gamma(t),           radius_ratio(t),
+            dihedral_min(t), dihedral_max(t), solid_angle_min(t), solid_angle_max(t),
+            aspect(t),       condition(t),    mean_ratio(t),      scaled_jacobian(t)};
 }
 
 const Tet regular{Point(1, 1, 1), Point(-1, 1, -1), Point(1, -1, -1), Point(-1, -1, 1)};
@@ -56,7 +58,8 @@ constexpr double tight = 1e-12;
 TEST_CASE("every shape measure of a regular tetrahedron is 1") {
     const TetGeometry t = geometry(regular);
     const double edge = std::sqrt(8.0);
-    for (auto* measure : {beta, sigma, omega, tau, kappa, alpha, gamma})
+    for (auto* measure :
+         {beta, sigma, omega, tau, kappa, alpha, gamma, aspect, condition, mean_ratio, scaled_jacobian})
         CHECK(measure(t) == doctest::Approx(1).epsilon(tight));
     CHECK(volume(t) == doctest::Approx(8.0 / 3).epsilon(tight));
     CHECK(inradius(t) == doctest::Approx(edge * std::sqrt(6.0) / 12).epsilon(tight));
@@ -173,7 +176,8 @@ TEST_CASE("a mirror image has the same measures with the sign turned") {
         const TetGeometry t = geometry(p);
         std::swap(p[2], p[3]);
         const TetGeometry mirrored = geometry(p);
-        for (auto* measure : {beta, sigma, kappa, alpha, gamma, volume, inradius})
+        for (auto* measure : {beta, sigma, kappa, alpha, gamma, volume, inradius, aspect, condition,
+                              mean_ratio, scaled_jacobian})
             CHECK(measure(mirrored) == doctest::Approx(-measure(t)).epsilon(1e-9));
         for (auto* measure : {omega, tau, circumradius, longest_edge})
             CHECK(measure(mirrored) == doctest::Approx(measure(t)).epsilon(1e-9));
@@ -198,8 +202,10 @@ TEST_CASE("flat and collapsed tetrahedra have defined values") {
     };
     for (const Tet& p : flat) {
         const TetGeometry t = geometry(p);
-        for (auto* measure : {beta, sigma, omega, kappa, alpha, gamma, volume, inradius, radius_ratio})
+        for (auto* measure : {beta, sigma, omega, kappa, alpha, gamma, volume, inradius, radius_ratio, aspect,
+                              condition, mean_ratio, scaled_jacobian, solid_angle_min})
             CHECK(measure(t) == 0);
+        CHECK(solid_angle_max(t) == 2 * std::acos(-1.0));
         CHECK(tau(t) >= 0);
         CHECK(tau(t) <= 1);
         CHECK(std::isinf(circumradius(t)));
@@ -221,7 +227,8 @@ TEST_CASE("near-degenerate tetrahedra keep to the bounds") {
                 p[3] = p[0] + height * Point(coordinate(random), coordinate(random), coordinate(random));
             for (double value : shape(p)) CHECK(std::isfinite(value));
             const TetGeometry t = geometry(p);
-            for (auto* measure : {beta, sigma, kappa, alpha, gamma, tau})
+            for (auto* measure :
+                 {beta, sigma, kappa, alpha, gamma, tau, aspect, condition, mean_ratio, scaled_jacobian})
                 CHECK(std::abs(measure(t)) <= 1 + tight);
             CHECK(omega(t) <= std::sqrt(1.5) + tight);
             CHECK(dihedral_min(t) <= dihedral_max(t));
@@ -237,4 +244,42 @@ TEST_CASE("near-degenerate tetrahedra keep to the bounds") {
                           : geometry({Point(0, 0, 0), Point(0, 1, h), Point(1, 1, 0), Point(1, 0, h)});
     CHECK(dihedral_min(upright) == doctest::Approx(2 * h * degree).epsilon(1e-6));
     CHECK(180 - dihedral_max(upright) == doctest::Approx(2 * std::sqrt(2.0) * h * degree).epsilon(1e-4));
+}
+
+TEST_CASE("solid angles, heights and the map from the regular tetrahedron have their analytic values") {
+    const double pi = std::acos(-1.0);
+    const TetGeometry at_regular = geometry(regular);
+    CHECK(solid_angle_min(at_regular) == doctest::Approx(std::acos(23.0 / 27)).epsilon(tight));
+    CHECK(solid_angle_max(at_regular) == doctest::Approx(std::acos(23.0 / 27)).epsilon(tight));
+    // An eighth of the sphere at the corner.
+    const TetGeometry at_corner = geometry(corner);
+    CHECK(solid_angle_max(at_corner) == doctest::Approx(pi / 2).epsilon(tight));
+    CHECK(aspect(at_corner) ==
+          doctest::Approx(1 / std::sqrt(3.0) / std::sqrt(2.0) * std::sqrt(1.5)).epsilon(tight));
+    CHECK(scaled_jacobian(at_corner) == doctest::Approx(1 / std::sqrt(2.0)).epsilon(tight));
+    CHECK(mean_ratio(at_corner) == doctest::Approx(12 * std::cbrt(0.25) / 9).epsilon(tight));
+    std::mt19937 random(8);
+    for (int i = 0; i < 200; ++i) {
+        const Tet p = random_tet(random);
+        const TetGeometry t = geometry(p);
+        // By the angles between faces (Girard), and by the map's matrix itself.
+        double least = 10, greatest = 0;
+        for (int k = 0; k < 4; ++k) {
+            const Point &o = p[k], &x = p[(k + 1) % 4], &y = p[(k + 2) % 4], &z = p[(k + 3) % 4];
+            const double girard =
+                (angle_at(o, x, y, z) + angle_at(o, y, z, x) + angle_at(o, z, x, y)) * pi / 180 - pi;
+            least = std::min(least, girard);
+            greatest = std::max(greatest, girard);
+        }
+        CHECK(std::abs(solid_angle_min(t) - least) < 1e-7);
+        CHECK(std::abs(solid_angle_max(t) - greatest) < 1e-7);
+        Eigen::Matrix3d edges, regular_edges;
+        edges << p[1] - p[0], p[2] - p[0], p[3] - p[0];
+        regular_edges << regular[1] - regular[0], regular[2] - regular[0], regular[3] - regular[0];
+        const Eigen::Matrix3d map = edges * regular_edges.inverse();
+        CHECK(condition(t) == doctest::Approx(3 / (map.norm() * map.inverse().norm())).epsilon(1e-9));
+        CHECK(
+            mean_ratio(t) ==
+            doctest::Approx(3 * std::cbrt(std::pow(map.determinant(), 2)) / map.squaredNorm()).epsilon(1e-9));
+    }
 }

@@ -171,15 +171,16 @@ TEST_CASE("JSON has the names that others rely on") {
     const auto json = nlohmann::json::parse(to_json(assess(mesh, &size)).dump());
     CHECK(json.at("cells") == 6);
     CHECK(json.at("inverted") == 0);
-    for (const char* name : {"beta", "sigma", "omega", "tau", "kappa", "alpha", "gamma", "phi",
-                             "dihedral_min", "dihedral_max"}) {
+    for (const char* name :
+         {"beta", "sigma", "omega", "tau", "kappa", "alpha", "gamma", "phi", "dihedral_min", "dihedral_max",
+          "solid_angle_min", "solid_angle_max", "aspect", "condition", "mean_ratio", "scaled_jacobian"}) {
         const auto& measure = json.at("measures").at(name);
         CHECK(measure.at("min").get<double>() <= measure.at("mean").get<double>() + 1e-12);
         CHECK(measure.at("mean").get<double>() <= measure.at("max").get<double>() + 1e-12);
         const auto counts = measure.at("histogram").get<std::vector<std::size_t>>();
         CHECK(std::accumulate(counts.begin(), counts.end(), std::size_t{0}) == 6);
     }
-    CHECK(json["measures"].size() == 10);
+    CHECK(json["measures"].size() == 16);
     CHECK(json["measures"]["phi"]["max"].get<double>() == doctest::Approx(std::sqrt(3.0)));
     for (const char* name : {"r/Lmax<0.4", "r/Lmax<0.2", "Lmin/Lmax<0.3", "2/3<L/Lbar<3/2"})
         CHECK(json.at("criteria").at(name).is_number());

@@ -16,7 +16,8 @@ difference() {
 }
 """
 PHASES = {"read", "primitives", "merge", "refine", "improve", "write"}
-MEASURES = {"beta", "sigma", "omega", "tau", "kappa", "alpha", "gamma", "phi", "dihedral_min", "dihedral_max"}
+MEASURES = {"beta", "sigma", "omega", "tau", "kappa", "alpha", "gamma", "phi", "dihedral_min", "dihedral_max",
+            "solid_angle_min", "solid_angle_max", "aspect", "condition", "mean_ratio", "scaled_jacobian"}
 
 
 class Help(MailleCase):
