@@ -1,8 +1,11 @@
 #include "refine/bisector.hh"
 
 #include <algorithm>
-#include <tuple>
-#include <utility>
+#include <cstring>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <tbb/parallel_for.h>
 
 #include "volmesh/orientation.hh"
 
@@ -12,17 +15,17 @@ namespace {
 using volmesh::Point;
 namespace tet = volmesh::tet;
 
-double squared_length(const Point& a, const Point& b) {
-    const double x = a.x() - b.x(), y = a.y() - b.y(), z = a.z() - b.z();
-    return x * x + y * y + z * z;
+template <class Action>
+void for_each_index(std::size_t n, const Action& action) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 64), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) action(i);
+    });
 }
 
-/// Whether both children of a cell are positively oriented when its edge a-b is split at `middle`. They are
-/// but for rounding, if the cell is.
-bool keeps_orientation(const TetMesh& mesh, CellHandle c, VertexHandle a, VertexHandle b,
-                       const Point& middle) {
+/// Whether both children of a cell are positively oriented when its edge a-b is split at `middle`.
+bool keeps_orientation(const TetMesh& mesh, CellHandle c, EdgeStars::Edge edge, const Point& middle) {
     const std::array<Point, 4> p = mesh.cell_points(c);
-    for (const VertexHandle end : {a, b}) {
+    for (const VertexHandle end : {edge.a, edge.b}) {
         std::array<Point, 4> child = p;
         child[mesh.local_vertex(c, end)] = middle;
         if (volmesh::orientation(child[0], child[1], child[2], child[3]) <= 0) return false;
@@ -30,61 +33,65 @@ bool keeps_orientation(const TetMesh& mesh, CellHandle c, VertexHandle a, Vertex
     return true;
 }
 
+/// Whether a cell is so thick that rounding of a midpoint can't invert a child: its volume is more than
+/// 1e-5 / 6 of the cube of a length that none of its edges at vertex 0 is longer than, and its coordinates
+/// are less than 1e8 times as large, so the midpoint is rounded by about 1e-8 of it.
+bool is_thick(const TetMesh& mesh, CellHandle c) {
+    const Point& a = mesh.point(mesh.cell_vertex(c, 0));
+    const Point u = mesh.point(mesh.cell_vertex(c, 1)) - a;
+    const Point v = mesh.point(mesh.cell_vertex(c, 2)) - a;
+    const Point w = mesh.point(mesh.cell_vertex(c, 3)) - a;
+    const double square = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
+    const double det = u.cross(v).dot(w);
+    return det > 0 && det * det > 1e-10 * (square * square * square) && a.squaredNorm() < 1e16 * square;
+}
+
 }  // namespace
 
-/// What decides between edges of the same length.
-auto Bisector::tie_breaker(CellHandle c, int edge) const {
-    const VertexHandle a = mesh_.cell_vertex(c, tet::edge_vertices[edge][0]);
-    const VertexHandle b = mesh_.cell_vertex(c, tet::edge_vertices[edge][1]);
-    const Point& p = mesh_.point(a);
-    const Point& q = mesh_.point(b);
-    const auto [older, younger] = std::minmax({generation_[a.idx()], generation_[b.idx()]});
-    return std::tuple(-younger, -older, p.x() + q.x(), p.y() + q.y(), p.z() + q.z(), std::min(a, b),
-                      std::max(a, b));
-}
-
-int Bisector::find_longest(CellHandle c) const {
-    const std::array<Point, 4> p = mesh_.cell_points(c);
-    int longest = 0;
-    double length = -1;
-    for (int edge = 0; edge < 6; ++edge) {
-        const double other = squared_length(p[tet::edge_vertices[edge][0]], p[tet::edge_vertices[edge][1]]);
-        if (other > length || (other == length && tie_breaker(c, edge) > tie_breaker(c, longest))) {
-            longest = edge;
-            length = other;
-        }
-    }
-    return longest;
-}
-
-Bisector::Bisector(TetMesh& mesh) : mesh_(mesh), state_(mesh.n_cells()), generation_(mesh.n_vertices()) {
+Bisector::Bisector(TetMesh& mesh) : mesh_(mesh), longest_edge_(mesh) {
+    state_.grow(mesh.n_cells());
     lineage_.n_vertices_before = mesh.n_vertices();
     lineage_.cell_ancestors.resize(mesh.n_cells());
-    for (std::uint32_t i = 0; i < mesh.n_cells(); ++i) {
-        lineage_.cell_ancestors[i] = i;
-        update(CellHandle(i), changed_bit);
-    }
+    std::iota(lineage_.cell_ancestors.begin(), lineage_.cell_ancestors.end(), 0U);
+    for_each_index(mesh.n_cells(), [&](std::size_t i) {
+        state_[i] = static_cast<std::uint8_t>(longest_edge_.of(CellHandle(static_cast<std::uint32_t>(i))) |
+                                              changed_bit);
+    });
 }
 
 double Bisector::longest_squared(CellHandle c) const {
-    const auto [i, j] = tet::edge_vertices[longest(c)];
-    return squared_length(mesh_.point(mesh_.cell_vertex(c, i)), mesh_.point(mesh_.cell_vertex(c, j)));
-}
-
-/// Looks at a cell anew, and adds it to those that have changed.
-void Bisector::update(CellHandle c, std::uint8_t more_bits) {
-    std::uint8_t& state = state_[c.idx()];
-    if ((state & changed_bit) == 0) changed_.push_back(c);
-    state = static_cast<std::uint8_t>((state & ~edge_mask) | changed_bit | more_bits | find_longest(c));
+    const auto [a, b] = longest_edge(c);
+    return squared_length(mesh_.point(a), mesh_.point(b));
 }
 
 void Bisector::refresh(std::span<const CellHandle> cells) {
-    for (const CellHandle c : cells) update(c, changed_bit);
+    for (const CellHandle c : cells) {
+        std::uint8_t& state = state_[c.idx()];
+        state = static_cast<std::uint8_t>((state & born_bit) | changed_bit | longest_edge_.of(c));
+    }
+}
+
+std::vector<CellHandle> Bisector::changed() const {
+    std::vector<CellHandle> cells;
+    const auto n = static_cast<std::uint32_t>(state_.size());
+    const auto is_changed = [&](std::uint32_t c) { return (state_[c] & changed_bit) != 0; };
+    constexpr std::uint64_t changed_bits = 0x0101010101010101U * changed_bit;
+    std::uint32_t c = 0;
+    for (std::uint64_t eight = 0; c + sizeof eight <= n; c += sizeof eight) {
+        std::memcpy(&eight, &state_[c], sizeof eight);
+        if ((eight & changed_bits) == 0) continue;
+        for (std::uint32_t i = c; i < c + sizeof eight; ++i)
+            if (is_changed(i)) cells.emplace_back(i);
+    }
+    for (; c < n; ++c)
+        if (is_changed(c)) cells.emplace_back(c);
+    return cells;
 }
 
 std::vector<CellHandle> Bisector::take_changed() {
-    for (const CellHandle c : changed_) state_[c.idx()] &= edge_mask;
-    return std::exchange(changed_, {});
+    std::vector<CellHandle> cells = changed();
+    for (const CellHandle c : cells) state_[c.idx()] &= edge_mask;
+    return cells;
 }
 
 bool Bisector::bisect(CellHandle c) {
@@ -92,58 +99,52 @@ bool Bisector::bisect(CellHandle c) {
 }
 
 bool Bisector::split(CellHandle c, int local_edge) {
-    return split(c, local_edge, mesh_.cells_around(c, local_edge));
-}
-
-bool Bisector::bisect_conforming(CellHandle c) {
-    if (is_born(c)) return true;
-    // Each cell of the path has a strictly longer edge than the one before it, so none is split before its
-    // turn.
-    path_.assign(1, c);
-    while (!path_.empty()) {
-        const CellHandle last = path_.back();
-        const auto [i, j] = tet::edge_vertices[longest(last)];
-        const CellList ring = mesh_.cells_around(last, longest(last));
-        const CellHandle obstacle = in_the_way(ring, mesh_.cell_vertex(last, i), mesh_.cell_vertex(last, j));
-        if (obstacle.is_valid()) {
-            path_.push_back(obstacle);
-        } else {
-            if (!split(last, longest(last), ring)) return false;
-            path_.pop_back();
-        }
-    }
-    return true;
-}
-
-/// The first cell round the edge a-b that has a longer edge; invalid where there is none.
-CellHandle Bisector::in_the_way(const CellList& ring, VertexHandle a, VertexHandle b) const {
-    for (const CellHandle c : ring) {
-        const auto [i, j] = tet::edge_vertices[longest(c)];
-        const VertexHandle p = mesh_.cell_vertex(c, i), q = mesh_.cell_vertex(c, j);
-        if (!((p == a && q == b) || (p == b && q == a))) return c;
-    }
-    return {};
-}
-
-bool Bisector::split(CellHandle c, int local_edge, const CellList& ring) {
+    const CellList ring = mesh_.cells_around(c, local_edge);
     const auto [i, j] = tet::edge_vertices[local_edge];
-    const VertexHandle a = mesh_.cell_vertex(c, i), b = mesh_.cell_vertex(c, j);
-    const Point middle = 0.5 * mesh_.point(a) + 0.5 * mesh_.point(b);
-    for (const CellHandle parent : ring)
-        if (!keeps_orientation(mesh_, parent, a, b, middle)) return false;
-
-    lineage_.vertex_parents.push_back({a.idx(), b.idx()});
-    generation_.push_back(
-        static_cast<std::uint16_t>(std::max(generation_[a.idx()], generation_[b.idx()]) + 1));
-    const std::uint32_t first_child = mesh_.n_cells();
-    mesh_.split_edge(c, local_edge, 0.5, ring);
-    state_.resize(mesh_.n_cells());
-    for (std::uint32_t k = 0; k < ring.size(); ++k) {
-        lineage_.cell_ancestors.push_back(lineage_.cell_ancestors[ring[k].idx()]);
-        update(ring[k], born_bit);
-        update(CellHandle(first_child + k), born_bit);
-    }
+    const EdgeStars::Edge edge{mesh_.cell_vertex(c, i), mesh_.cell_vertex(c, j)};
+    if (!can_split(edge, {ring.data(), ring.size()})) return false;
+    EdgeStars one;
+    one.add(edge, {ring.data(), ring.size()});
+    split(one);
     return true;
+}
+
+bool Bisector::can_split(EdgeStars::Edge edge, std::span<const CellHandle> ring) const {
+    const Point middle = 0.5 * mesh_.point(edge.a) + 0.5 * mesh_.point(edge.b);
+    return std::ranges::all_of(
+        ring, [&](CellHandle c) { return is_thick(mesh_, c) || keeps_orientation(mesh_, c, edge, middle); });
+}
+
+bool Bisector::mark(CellHandle c, std::uint8_t bit) {
+    std::uint8_t& state = state_[c.idx()];
+    if ((state & bit) != 0) return false;
+    state |= bit;
+    return true;
+}
+
+void Bisector::split(const EdgeStars& stars) {
+    auto& [ancestors, parents, n_vertices_before] = lineage_;
+    const std::uint32_t first_vertex = mesh_.n_vertices();
+    const std::uint32_t first_cell = mesh_.n_cells();
+    mesh_.split_edges(stars);
+    state_.grow(mesh_.n_cells());
+    ancestors.resize(mesh_.n_cells());
+    for (std::size_t i = 0; i < stars.size(); ++i)
+        parents.push_back({stars.edge(i).a.idx(), stars.edge(i).b.idx()});
+    longest_edge_.add(first_vertex, std::span(parents).last(stars.size()));
+    for_each_index(stars.size(), [&](std::size_t i) {
+        const VertexHandle a = stars.edge(i).a;
+        const VertexHandle m(first_vertex + static_cast<std::uint32_t>(i));
+        std::uint32_t child = first_cell + stars.begin_of(i);
+        for (const CellHandle c : stars.ring(i)) {
+            const auto longest = longest_edge_.of_children(c, CellHandle(child), mesh_.local_vertex(c, a),
+                                                           mesh_.local_vertex(c, m));
+            state_[c.idx()] = static_cast<std::uint8_t>(longest[0] | born_bit | changed_bit);
+            state_[child] = static_cast<std::uint8_t>(longest[1] | born_bit | changed_bit);
+            ancestors[child] = ancestors[c.idx()];
+            ++child;
+        }
+    });
 }
 
 }  // namespace maille::refine

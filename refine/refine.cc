@@ -12,6 +12,7 @@
 #include "refine/bisector.hh"
 #include "refine/project.hh"
 #include "refine/relocate.hh"
+#include "refine/rivara.hh"
 #include "volmesh/error.hh"
 
 namespace maille::refine {
@@ -101,18 +102,20 @@ class Refinement {
         const std::uint32_t first_new = mesh_.n_vertices();
         {
             const Stopwatch watch(result_.seconds.split);
-            Cells refused;
-            for (const CellHandle c : marked)
-                if (!bisect(c)) refused.push_back(c);
-            bisector_.refresh(refused);
+            bisector_.refresh(bisect(marked));
         }
         project(first_new);
         if (options_.smooth) smooth(first_new);
         return mesh_.n_vertices() > first_new;
     }
 
-    bool bisect(CellHandle c) {
-        return options_.method == Method::rivara ? bisector_.bisect_conforming(c) : bisector_.bisect(c);
+    /// Returns the cells that couldn't be split.
+    Cells bisect(const Cells& marked) {
+        if (options_.method == Method::rivara) return bisect_conforming(bisector_, marked);
+        Cells refused;
+        for (const CellHandle c : marked)
+            if (!bisector_.bisect(c)) refused.push_back(c);
+        return refused;
     }
 
     /// Brings vertices to their surfaces: the waiting ones and those from `first_new` on, which are in

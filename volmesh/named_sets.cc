@@ -1,14 +1,13 @@
 #include "volmesh/named_sets.hh"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "volmesh/tet_topology.hh"
 
 namespace maille::volmesh {
 namespace {
-
-constexpr NamedSets::RowId unknown_row = ~NamedSets::RowId{0};
 
 void check_rule(const SetInfo& info) {
     const bool is_vertex = info.kind == EntityKind::vertex;
@@ -28,10 +27,9 @@ void check_rule(const SetInfo& info) {
 
 }  // namespace
 
-NamedSets::NamedSets() : combinations_(1), rows_(1) {
+NamedSets::NamedSets() : combinations_(1), rows_(1), heritages_(1) {
     combination_ids_.emplace(std::vector<SetHandle>{}, 0);
     row_ids_.emplace(Row{}, 0);
-    splits_.emplace_back().fill({0, 0});
 }
 
 SetHandle NamedSets::add(SetInfo info) {
@@ -43,8 +41,13 @@ SetHandle NamedSets::add(SetInfo info) {
     if (rule == SetRule::Kind::custom) custom_.push_back(handle);
     if (rule == SetRule::Kind::from_edges || rule == SetRule::Kind::from_faces)
         born_from_[info.rule.source.idx()].push_back(handle);
+    if (info.rule.source.is_valid()) is_source_[info.rule.source.idx()] = 1;
     born_from_.emplace_back();
+    is_source_.push_back(0);
     infos_.push_back(std::move(info));
+    heritages_.assign(rows_.size(), {});
+    unions_.clear();
+    births_.clear();
     return handle;
 }
 
@@ -82,13 +85,13 @@ NamedSets::RowId NamedSets::intern(const Row& row) {
     const auto [place, is_new] = row_ids_.try_emplace(row, n_rows());
     if (is_new) {
         rows_.push_back(row);
-        splits_.emplace_back().fill({unknown_row, unknown_row});
+        heritages_.emplace_back();
     }
     return place->second;
 }
 
-std::pair<NamedSets::RowId, NamedSets::RowId> NamedSets::split(RowId id, int local_edge) {
-    if (splits_[id][local_edge].first != unknown_row) return splits_[id][local_edge];
+const NamedSets::Heritage& NamedSets::heritage(RowId id, int local_edge) {
+    if (heritages_[id][local_edge].is_known()) return heritages_[id][local_edge];
     const auto [i, j] = tet::edge_vertices[local_edge];
     const int opposite = tet::opposite_edge(local_edge);
     const auto [k, l] = tet::edge_vertices[opposite];
@@ -109,9 +112,53 @@ std::pair<NamedSets::RowId, NamedSets::RowId> NamedSets::split(RowId id, int loc
     second.edges[tet::edge_between[i][k]] = 0;
     second.edges[tet::edge_between[i][l]] = 0;
 
+    const CombinationId sources = sources_at(rows_[id], local_edge);
     const std::pair children(intern(first), intern(second));
-    splits_[id][local_edge] = children;
-    return children;
+    return heritages_[id][local_edge] = {children, sources};
+}
+
+CombinationId NamedSets::sources_at(const Row& row, int local_edge) {
+    const auto [k, l] = tet::edge_vertices[tet::opposite_edge(local_edge)];
+    std::vector<SetHandle> sources;
+    for (const CombinationId id : {row.cell, row.faces[k], row.faces[l], row.edges[local_edge]})
+        std::ranges::copy_if(combination(id), std::back_inserter(sources),
+                             [&](SetHandle set) { return is_source_[set.idx()] != 0; });
+    return intern(std::move(sources));
+}
+
+CombinationId NamedSets::unite(CombinationId a, CombinationId b) const {
+    if (a == b || b == 0) return a;
+    if (a == 0) return b;
+    const auto known = unions_.find(std::minmax(a, b));
+    return known == unions_.end() ? unknown : known->second;
+}
+
+CombinationId NamedSets::unite(CombinationId a, CombinationId b) {
+    const CombinationId known = std::as_const(*this).unite(a, b);
+    if (known != unknown) return known;
+    std::vector<SetHandle> sets = combinations_[a];
+    std::ranges::copy(combinations_[b], std::back_inserter(sets));
+    return unions_[std::minmax(a, b)] = intern(std::move(sets));
+}
+
+CombinationId NamedSets::born(const Birth& birth) const {
+    if (birth.sources == 0 && (birth.at_a == 0 || birth.at_b == 0)) return 0;
+    const auto known = births_.find(birth);
+    return known == births_.end() ? unknown : known->second;
+}
+
+CombinationId NamedSets::born(const Birth& birth) {
+    const CombinationId known = std::as_const(*this).born(birth);
+    if (known != unknown) return known;
+    std::vector<SetHandle> sets;
+    for (SetHandle source : combination(birth.sources))
+        std::ranges::copy(born_from_[source.idx()], std::back_inserter(sets));
+    for (SetHandle set : combination(birth.at_a)) {
+        const SetRule& rule = info(set).rule;
+        if (rule.kind != SetRule::Kind::both_ends || !contains(birth.at_b, set)) continue;
+        if (!rule.source.is_valid() || contains(birth.sources, rule.source)) sets.push_back(set);
+    }
+    return births_[birth] = intern(std::move(sets));
 }
 
 CombinationId NamedSets::inherited(CombinationId id) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -96,12 +97,35 @@ class NamedSets {
     RowId intern(const Row& row);
     std::uint32_t n_rows() const { return static_cast<std::uint32_t>(rows_.size()); }
 
-    /// Rows of the two children when the local edge is split: of the one that keeps the edge's first end, and
-    /// of the one that keeps its second. Custom rules are taken as `copy` here.
-    std::pair<RowId, RowId> split(RowId id, int local_edge);
+    static constexpr std::uint32_t unknown = ~std::uint32_t{0};
 
-    /// The vertex sets whose rule is from_edges or from_faces of this set.
-    std::span<const SetHandle> born_from(SetHandle source) const { return born_from_[source.idx()]; }
+    /// What the split of a cell's edge passes on.
+    struct Heritage {
+        /// Rows of the child that keeps the edge's first end, and of the one that keeps its second. Custom
+        /// rules are taken as `copy` here.
+        std::pair<RowId, RowId> children{unknown, unknown};
+        /// The sets that the edge lies in as this cell sees it (the cell's, its two faces' and the edge's
+        /// own), as far as rules of vertex sets name them as their source.
+        CombinationId sources = unknown;
+        bool is_known() const { return sources != unknown; }
+    };
+    /// What decides on the sets of a vertex born on an edge: the sources round it, the combinations of its
+    /// ends.
+    struct Birth {
+        CombinationId sources, at_a, at_b;
+        friend bool operator==(const Birth&, const Birth&) = default;
+    };
+
+    // What was once asked for is remembered. Constant sets only look up, which threads may do together, and
+    // give `unknown` where they don't remember.
+    const Heritage& heritage(RowId id, int local_edge) const { return heritages_[id][local_edge]; }
+    const Heritage& heritage(RowId id, int local_edge);
+    CombinationId unite(CombinationId a, CombinationId b) const;
+    CombinationId unite(CombinationId a, CombinationId b);
+    /// The vertex sets that the new vertex is in by rule.
+    CombinationId born(const Birth& birth) const;
+    CombinationId born(const Birth& birth);
+
     /// The sets whose rule is custom.
     std::span<const SetHandle> custom() const { return custom_; }
 
@@ -109,17 +133,29 @@ class NamedSets {
     CombinationId inherited(CombinationId id);
 
   private:
+    struct Hash {
+        std::size_t operator()(const Birth& birth) const {
+            return (birth.sources * 0x9e3779b97f4a7c15U + birth.at_a) * 0x9e3779b97f4a7c15U + birth.at_b;
+        }
+    };
+
+    CombinationId sources_at(const Row& row, int local_edge);
+
     std::vector<SetInfo> infos_;
     std::map<std::pair<std::string, EntityKind>, SetHandle> by_name_;
     std::vector<std::vector<SetHandle>> combinations_;
     std::map<std::vector<SetHandle>, CombinationId> combination_ids_;
     std::vector<Row> rows_;
     std::map<Row, RowId> row_ids_;
-    /// Children's rows by row, then by local edge; the first number is `unknown_row` where they are not known
-    /// yet.
-    std::vector<std::array<std::pair<RowId, RowId>, 6>> splits_;
-    std::vector<std::vector<SetHandle>> born_from_;  ///< by source set
+    std::vector<std::vector<SetHandle>>
+        born_from_;                        ///< by set: the vertex sets that it brings forth by itself
+    std::vector<std::uint8_t> is_source_;  ///< by set: whether a vertex set's rule names it
     std::vector<SetHandle> custom_;
+
+    // What is remembered, until a set is added.
+    std::vector<std::array<Heritage, 6>> heritages_;  ///< by row and local edge
+    std::map<std::pair<CombinationId, CombinationId>, CombinationId> unions_;
+    std::unordered_map<Birth, CombinationId, Hash> births_;
 };
 
 }  // namespace maille::volmesh

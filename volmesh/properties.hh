@@ -61,10 +61,10 @@ class BaseProperty {
     virtual std::unique_ptr<BaseProperty> clone() const = 0;
     virtual std::size_t size() const = 0;
     virtual void resize(std::size_t n) = 0;
-    /// A vertex at the end, born between a and b.
-    virtual void push_between(std::uint32_t a, std::uint32_t b, double ratio) = 0;
-    /// An entity at the end, the second child of `parent`, which becomes the first child.
-    virtual void push_child(std::uint32_t parent, double ratio) = 0;
+    /// The vertex m is born between a and b.
+    virtual void set_between(std::uint32_t m, std::uint32_t a, std::uint32_t b, double ratio) = 0;
+    /// `child` is the second child of `parent`, which becomes the first child.
+    virtual void set_child(std::uint32_t parent, std::uint32_t child, double ratio) = 0;
     /// A vertex at the end, born among others; the weights sum to 1.
     virtual void push_among(std::span<const std::uint32_t> parents, std::span<const double> weights) = 0;
     /// Cells, faces or edges replace others: `copy` takes the parent's value, `share` divides the sum of the
@@ -109,8 +109,8 @@ class Property final : public BaseProperty {
     }
     std::size_t size() const override { return values_.size(); }
     void resize(std::size_t n) override { values_.resize(n, default_); }
-    void push_between(std::uint32_t a, std::uint32_t b, double ratio) override;
-    void push_child(std::uint32_t parent, double ratio) override;
+    void set_between(std::uint32_t m, std::uint32_t a, std::uint32_t b, double ratio) override;
+    void set_child(std::uint32_t parent, std::uint32_t child, double ratio) override;
     void push_among(std::span<const std::uint32_t> parents, std::span<const double> weights) override;
     void pass_on(std::span<const Inheritance> inheritances) override;
     void gather(const std::vector<std::uint32_t>& old_indices) override;
@@ -125,7 +125,7 @@ class Property final : public BaseProperty {
 };
 
 template <class T>
-void Property<T>::push_between(std::uint32_t a, std::uint32_t b, double ratio) {
+void Property<T>::set_between(std::uint32_t m, std::uint32_t a, std::uint32_t b, double ratio) {
     Stored value = default_;
     if (heritage_.at_vertex) {
         value = heritage_.at_vertex(values_[a], values_[b], ratio);
@@ -134,11 +134,11 @@ void Property<T>::push_between(std::uint32_t a, std::uint32_t b, double ratio) {
     } else if (heritage_.rule == PropertyRule::interpolate) {
         if constexpr (is_linear) value = static_cast<T>(values_[a] * (1 - ratio) + values_[b] * ratio);
     }
-    values_.push_back(std::move(value));
+    values_[m] = std::move(value);
 }
 
 template <class T>
-void Property<T>::push_child(std::uint32_t parent, double ratio) {
+void Property<T>::set_child(std::uint32_t parent, std::uint32_t child, double ratio) {
     Stored first = default_;
     Stored second = default_;
     if (heritage_.at_children) {
@@ -152,7 +152,7 @@ void Property<T>::push_child(std::uint32_t parent, double ratio) {
         }
     }
     values_[parent] = std::move(first);
-    values_.push_back(std::move(second));
+    values_[child] = std::move(second);
 }
 
 template <class T>

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,8 +26,8 @@ TetMesh TetMesh::from_cells(std::vector<Point> points, std::vector<std::array<In
                     throw InputError(fmt::format("cell {} has vertex {} twice", c, cells[c][i]));
         }
     TetMesh mesh;
-    mesh.points_ = std::move(points);
-    mesh.cells_ = std::move(cells);
+    mesh.points_.assign(std::exchange(points, {}));
+    mesh.cells_.assign(std::exchange(cells, {}));
     mesh.link_neighbors();
     mesh.find_vertex_cells();
     mesh.find_pinches();

@@ -21,11 +21,10 @@ struct Kept {
             }
     }
 
-    template <class T>
-    void gather(std::vector<T>& values) const {
+    template <class Values>
+    void gather(Values& values) const {
         if (values.empty()) return;
-        std::vector<T> kept;
-        kept.reserve(old_indices.size());
+        Values kept;
         for (Index old : old_indices) kept.push_back(values[old]);
         values = std::move(kept);
     }

@@ -8,24 +8,24 @@
 namespace maille::volmesh {
 namespace {
 
-// Turns round the edge a-b from a cell, out through the face opposite the local vertex `pivot` first, until
-// it comes back or to the boundary. Whether it came back.
-bool turn(const std::vector<std::array<std::uint32_t, 4>>& cells,
-          const std::vector<std::array<std::uint32_t, 4>>& neighbors, std::uint32_t start, int pivot,
-          std::uint32_t a, std::uint32_t b, CellList& ring) {
+// Turns round an edge from a cell, out through the face opposite the local vertex `pivot` first, until it
+// comes back or to the boundary. Whether it came back. Each face that it goes through has the vertex `shared`
+// besides the edge's ends.
+bool turn(const Column<std::array<std::uint32_t, 4>>& cells,
+          const Column<std::array<std::uint32_t, 4>>& neighbors, std::uint32_t start, int pivot,
+          int shared_local, CellList& ring) {
     std::uint32_t cell = start;
+    std::uint32_t shared = cells[start][shared_local];
     while (true) {
         const std::uint32_t next = neighbors[cell][pivot];
         if (next == TetMesh::none) return false;
         cell = next / 4;
         if (cell == start) return true;
         ring.push_back(CellHandle(cell));
-        // The face came through is opposite local vertex next % 4; go out opposite the one that isn't a, b or
-        // that.
-        int rest = 6 - static_cast<int>(next % 4);
-        for (int i = 0; i < 4; ++i)
-            if (cells[cell][i] == a || cells[cell][i] == b) rest -= i;
-        pivot = rest;
+        // In through the face opposite local vertex next % 4, out through that opposite the shared one.
+        const auto& v = cells[cell];
+        pivot = v[0] == shared ? 0 : v[1] == shared ? 1 : v[2] == shared ? 2 : 3;
+        shared = v[next % 4];
     }
 }
 
@@ -64,28 +64,6 @@ EntityRange<HalffaceHandle> TetMesh::boundary_halffaces() const {
 EntityRange<FaceHandle> TetMesh::boundary_faces() const {
     request_faces();
     return {*this, n_faces(), EntityRange<FaceHandle>::Filter::interior};
-}
-
-std::array<Point, 4> TetMesh::cell_points(CellHandle c) const {
-    const auto& v = cells_[c.idx()];
-    return {points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]};
-}
-
-std::array<VertexHandle, 4> TetMesh::cell_vertices(CellHandle c) const {
-    const auto& v = cells_[c.idx()];
-    return {VertexHandle(v[0]), VertexHandle(v[1]), VertexHandle(v[2]), VertexHandle(v[3])};
-}
-
-int TetMesh::local_vertex(CellHandle c, VertexHandle v) const {
-    for (int i = 0; i < 4; ++i)
-        if (cells_[c.idx()][i] == v.idx()) return i;
-    return -1;
-}
-
-int TetMesh::local_edge(CellHandle c, VertexHandle a, VertexHandle b) const {
-    const int i = local_vertex(c, a);
-    const int j = local_vertex(c, b);
-    return i < 0 || j < 0 || i == j ? -1 : tet::edge_between[i][j];
 }
 
 std::array<VertexHandle, 3> TetMesh::halfface_vertices(HalffaceHandle hf) const {
@@ -171,15 +149,12 @@ EdgeList TetMesh::ve_range(VertexHandle v) const {
 }
 
 void TetMesh::append_ring(CellHandle c, int local_edge, CellList& ring) const {
-    const auto [i, j] = tet::edge_vertices[local_edge];
     const auto [k, l] = tet::edge_vertices[tet::opposite_edge(local_edge)];
-    const Index a = cells_[c.idx()][i];
-    const Index b = cells_[c.idx()][j];
     const auto begin = static_cast<std::ptrdiff_t>(ring.size());
     ring.push_back(c);
-    if (turn(cells_, neighbors_, c.idx(), k, a, b, ring)) return;
+    if (turn(cells_, neighbors_, c.idx(), k, l, ring)) return;
     std::reverse(ring.begin() + begin, ring.end());
-    turn(cells_, neighbors_, c.idx(), l, a, b, ring);
+    turn(cells_, neighbors_, c.idx(), l, k, ring);
 }
 
 CellList TetMesh::cells_around(CellHandle c, int local_edge) const {
@@ -228,13 +203,6 @@ FaceList TetMesh::ef_range(EdgeHandle e) const {
     FaceList faces;
     for (HalffaceHandle hf : halffaces_around(c, local)) faces.push_back(face_handle(hf));
     return faces;
-}
-
-CellList TetMesh::cc_range(CellHandle c) const {
-    CellList cells;
-    for (Index other : neighbors_[c.idx()])
-        if (other != none) cells.push_back(CellHandle(other / 4));
-    return cells;
 }
 
 HalffaceHandle TetMesh::find_halfface(VertexHandle a, VertexHandle b, VertexHandle c) const {

@@ -12,6 +12,8 @@
 #include <Eigen/Core>
 #include <boost/container/small_vector.hpp>
 
+#include "volmesh/column.hh"
+#include "volmesh/edge_stars.hh"
 #include "volmesh/handles.hh"
 #include "volmesh/named_sets.hh"
 #include "volmesh/properties.hh"
@@ -90,7 +92,7 @@ class TetMesh {
     // ---------------------------------------------------------------------------------------------------
     const Point& point(VertexHandle v) const { return points_[v.idx()]; }
     void set_point(VertexHandle v, const Point& p) { points_[v.idx()] = p; }
-    std::span<const Point> points() const { return points_; }
+    std::span<const Point> points() const { return {points_.data(), points_.size()}; }
     std::array<Point, 4> cell_points(CellHandle c) const;
 
     // ---- cells and half-faces
@@ -98,7 +100,9 @@ class TetMesh {
     std::array<VertexHandle, 4> cell_vertices(CellHandle c) const;
     VertexHandle cell_vertex(CellHandle c, int local) const { return VertexHandle(cells_[c.idx()][local]); }
     /// The vertices of every cell, by cell index.
-    std::span<const std::array<Index, 4>> cell_vertex_indices() const { return cells_; }
+    std::span<const std::array<Index, 4>> cell_vertex_indices() const {
+        return {cells_.data(), cells_.size()};
+    }
     /// Local number of a vertex in a cell, -1 where it isn't one of the cell's.
     int local_vertex(CellHandle c, VertexHandle v) const;
     /// Local number of the edge in the cell, -1 where the cell doesn't have both.
@@ -193,6 +197,10 @@ class TetMesh {
     /// As the first one, for a caller who has the cells round the edge already, as cells_around(c,
     /// local_edge) gives them.
     VertexHandle split_edge(CellHandle c, int local_edge, double ratio, const CellList& ring);
+    /// Splits many edges at their middles, by as many threads as there are at hand. The result is that of
+    /// split_edge for one after another, in their order; custom rules of sets and properties are asked when
+    /// all are split. Returns the first of the new vertices.
+    VertexHandle split_edges(const EdgeStars& stars);
 
     /// Takes cells out and fills their place with others; retriangulation.hh says how and what is kept.
     void replace_cells(const Retriangulation& change);
@@ -310,6 +318,7 @@ class TetMesh {
         std::vector<Index> halfface;  ///< one half-face; `none` where the face is gone
     };
     struct Split;
+    struct SplitLocals;
 
     const NamedSets::Row& row(CellHandle c) const {
         return sets_.row(cell_rows_.empty() ? 0 : cell_rows_[c.idx()]);
@@ -341,7 +350,11 @@ class TetMesh {
     void inherit_sets_from_neighbors(CellHandle c);
 
     VertexHandle split_between(VertexHandle a, VertexHandle b, double ratio, const CellList& ring);
+    SplitLocals locals_of(CellHandle c, VertexHandle a, VertexHandle b) const;
+    void split_all(std::span<const Split> splits);
+    void grow(std::size_t n_vertices, std::size_t n_cells);
     void split_cells(const Split& split);
+    void link_to_others(const Split& split, Index first_vertex);
     void split_edge_numbers(const Split& split);
     void split_face_numbers(const Split& split);
     void split_pinches(const Split& split);
@@ -353,13 +366,15 @@ class TetMesh {
     void pass_on_cell_values(const Retriangulation& change, const Cavity& cavity);
     void repair_hinges(const Retriangulation& change, Cavity& cavity);
 
-    CombinationId born_combination(const Split& split);
+    std::vector<CombinationId> prepare_sets(std::span<const Split> splits);
+    template <class Sets>
+    CombinationId plan_sets(Sets& sets, const Split& split) const;
     void apply_custom_rules(const Split& split);
 
-    std::vector<Point> points_;
-    std::vector<std::array<Index, 4>> cells_;
-    std::vector<std::array<Index, 4>> neighbors_;  ///< the opposite half-face, by cell and local face
-    std::vector<Index> vertex_cells_;              ///< a cell of each vertex
+    Column<Point> points_;
+    Column<std::array<Index, 4>> cells_;
+    Column<std::array<Index, 4>> neighbors_;  ///< the opposite half-face, by cell and local face
+    Column<Index> vertex_cells_;              ///< a cell of each vertex
     Index n_boundary_ = 0;
 
     /// Where the boundary isn't manifold: a cell of each further fan of a vertex, and of each fan of an edge
@@ -374,9 +389,38 @@ class TetMesh {
     mutable std::array<PropertyList, 4>
         properties_;  ///< by EntityKind; edges' and faces' grow when they are numbered
     NamedSets sets_;
-    std::vector<CombinationId> vertex_combinations_;  ///< empty while no vertex is in a set
-    std::vector<NamedSets::RowId> cell_rows_;         ///< empty while no edge, face or cell is in a set
+    Column<CombinationId> vertex_combinations_;  ///< empty while no vertex is in a set
+    Column<NamedSets::RowId> cell_rows_;         ///< empty while no edge, face or cell is in a set
 };
+
+inline std::array<Point, 4> TetMesh::cell_points(CellHandle c) const {
+    const auto& v = cells_[c.idx()];
+    return {points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]};
+}
+
+inline std::array<VertexHandle, 4> TetMesh::cell_vertices(CellHandle c) const {
+    const auto& v = cells_[c.idx()];
+    return {VertexHandle(v[0]), VertexHandle(v[1]), VertexHandle(v[2]), VertexHandle(v[3])};
+}
+
+inline int TetMesh::local_vertex(CellHandle c, VertexHandle v) const {
+    for (int i = 0; i < 4; ++i)
+        if (cells_[c.idx()][i] == v.idx()) return i;
+    return -1;
+}
+
+inline int TetMesh::local_edge(CellHandle c, VertexHandle a, VertexHandle b) const {
+    const int i = local_vertex(c, a);
+    const int j = local_vertex(c, b);
+    return i < 0 || j < 0 || i == j ? -1 : tet::edge_between[i][j];
+}
+
+inline CellList TetMesh::cc_range(CellHandle c) const {
+    CellList cells;
+    for (Index other : neighbors_[c.idx()])
+        if (other != none) cells.push_back(CellHandle(other / 4));
+    return cells;
+}
 
 }  // namespace maille::volmesh
 

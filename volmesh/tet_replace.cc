@@ -258,7 +258,7 @@ void TetMesh::relink(const Retriangulation& change, Cavity& cavity) {
         const Index slot = r < change.old_cells.size() ? change.old_cells[r].idx() : n_cells();
         cavity.slots.push_back(slot);
         if (slot == n_cells()) {
-            cells_.emplace_back();
+            cells_.push_back({});
             neighbors_.push_back({none, none, none, none});
             if (!deleted_cells_.empty()) deleted_cells_.push_back(0);
             if (!cell_rows_.empty()) cell_rows_.push_back(0);

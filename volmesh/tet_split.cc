@@ -1,7 +1,10 @@
 #include "volmesh/tet_split.hh"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
+
+#include <tbb/parallel_for.h>
 
 #include "volmesh/fans.hh"
 #include "volmesh/tet_mesh.hh"
@@ -45,71 +48,163 @@ VertexHandle TetMesh::split_edge(EdgeHandle e, double ratio) {
 
 VertexHandle TetMesh::split_between(VertexHandle a, VertexHandle b, double ratio, const CellList& ring) {
     assert(ratio > 0 && ratio < 1);
-    Split split{a, b, VertexHandle(n_vertices()), ratio, ring, n_cells(), {}};
-    for (CellHandle c : ring) {
-        const int i = local_vertex(c, a);
-        const int j = local_vertex(c, b);
-        const auto [k, l] = tet::edge_vertices[tet::opposite_edge(tet::edge_between[i][j])];
-        split.locals.push_back({i, j, k, l});
-    }
-
-    const CombinationId born = born_combination(split);
-    points_.push_back((1 - ratio) * points_[a.idx()] + ratio * points_[b.idx()]);
-    vertex_cells_.push_back(ring.front().idx());
-    if (!deleted_vertices_.empty()) deleted_vertices_.push_back(0);
-    if (born != 0 && vertex_combinations_.empty()) vertex_combinations_.resize(points_.size() - 1, 0);
-    if (born != 0 || !vertex_combinations_.empty()) vertex_combinations_.push_back(born);
-    properties_of(EntityKind::vertex).for_each([&](BaseProperty& property) {
-        property.push_between(a.idx(), b.idx(), ratio);
-    });
-
-    split_cells(split);
-    if (edges_) split_edge_numbers(split);
-    if (faces_) split_face_numbers(split);
-    if (!edge_fans_.empty() || !vertex_fans_.empty()) split_pinches(split);
-    if (!cell_rows_.empty()) split_sets(split);
-    apply_custom_rules(split);
+    boost::container::small_vector<SplitLocals, 16> locals;
+    for (CellHandle c : ring) locals.push_back(locals_of(c, a, b));
+    const Split split{a,
+                      b,
+                      VertexHandle(n_vertices()),
+                      n_cells(),
+                      ratio,
+                      {ring.data(), ring.size()},
+                      {locals.data(), locals.size()}};
+    split_all({&split, 1});
     return split.m;
 }
 
+VertexHandle TetMesh::split_edges(const EdgeStars& stars) {
+    const VertexHandle first(n_vertices());
+    std::vector<SplitLocals> locals(stars.n_cells());
+    std::vector<Split> splits(stars.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, stars.size(), 256), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const auto [a, b] = stars.edge(i);
+            const auto ring = stars.ring(i);
+            const std::span place(locals.begin() + stars.begin_of(i), ring.size());
+            for (std::size_t r = 0; r < ring.size(); ++r) place[r] = locals_of(ring[r], a, b);
+            splits[i] = {a,
+                         b,
+                         VertexHandle(first.idx() + static_cast<Index>(i)),
+                         n_cells() + stars.begin_of(i),
+                         0.5,
+                         ring,
+                         place};
+        }
+    });
+    split_all(splits);
+    return first;
+}
+
+TetMesh::SplitLocals TetMesh::locals_of(CellHandle c, VertexHandle a, VertexHandle b) const {
+    const int i = local_vertex(c, a);
+    const int j = local_vertex(c, b);
+    const auto [k, l] = tet::edge_vertices[tet::opposite_edge(tet::edge_between[i][j])];
+    return {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j), k, l};
+}
+
+/// Splits edges whose rings have no cell in common. What many threads do writes to the cells of one ring at a
+/// time, and new indices are known beforehand, so the result is that of one split after another.
+void TetMesh::split_all(std::span<const Split> splits) {
+    if (splits.empty()) return;
+    const auto for_each_split = [&](const auto& action) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, splits.size(), 64), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) action(splits[i]);
+        });
+    };
+    const Index first_vertex = splits.front().m.idx();
+    const std::vector<CombinationId> born = prepare_sets(splits);
+    grow(n_vertices() + splits.size(), splits.back().new_cell(splits.back().ring.size()));
+    for_each_split([&](const Split& split) {
+        points_[split.m.idx()] =
+            (1 - split.ratio) * points_[split.a.idx()] + split.ratio * points_[split.b.idx()];
+        split_cells(split);
+        if (!cell_rows_.empty()) split_sets(split);
+        if (!vertex_combinations_.empty())
+            vertex_combinations_[split.m.idx()] = born.empty() ? 0 : born[split.m.idx() - first_vertex];
+    });
+    for_each_split([&](const Split& split) { link_to_others(split, first_vertex); });
+
+    properties_of(EntityKind::vertex).for_each([&](BaseProperty& property) {
+        for (const Split& split : splits)
+            property.set_between(split.m.idx(), split.a.idx(), split.b.idx(), split.ratio);
+    });
+    properties_of(EntityKind::cell).for_each([&](BaseProperty& property) {
+        for (const Split& split : splits)
+            for (std::size_t r = 0; r < split.ring.size(); ++r)
+                property.set_child(split.ring[r].idx(), split.new_cell(r), split.ratio);
+    });
+    for (const Split& split : splits) {
+        if (edges_) split_edge_numbers(split);
+        if (faces_) split_face_numbers(split);
+        if (!edge_fans_.empty() || !vertex_fans_.empty()) split_pinches(split);
+    }
+    for (const Split& split : splits) apply_custom_rules(split);
+}
+
+/// Makes room for so many vertices and cells.
+void TetMesh::grow(std::size_t n_vertices, std::size_t n_cells) {
+    points_.grow(n_vertices);
+    vertex_cells_.grow(n_vertices);
+    if (!deleted_vertices_.empty()) deleted_vertices_.resize(n_vertices, 0);
+    if (!vertex_combinations_.empty()) vertex_combinations_.grow(n_vertices);
+    cells_.grow(n_cells);
+    neighbors_.grow(n_cells);
+    if (!deleted_cells_.empty()) deleted_cells_.resize(n_cells, 0);
+    if (!cell_rows_.empty()) cell_rows_.grow(n_cells);
+    properties_of(EntityKind::vertex).for_each([&](BaseProperty& property) { property.resize(n_vertices); });
+    properties_of(EntityKind::cell).for_each([&](BaseProperty& property) { property.resize(n_cells); });
+}
+
+/// The cells of one ring, and what they are to each other.
 void TetMesh::split_cells(const Split& split) {
     const std::size_t n = split.ring.size();
+    const std::atomic_ref<Index> cell_of_b(vertex_cells_[split.b.idx()]);
+    vertex_cells_[split.m.idx()] = split.ring.front().idx();
+    Index n_halved_boundary_faces = 0;
     for (std::size_t r = 0; r < n; ++r) {
         const Index c = split.ring[r].idx();
         const Index d = split.new_cell(r);
         const auto [a, b, k, l] = split.locals[r];
-
-        std::array<Index, 4> vertices = cells_[c];
-        vertices[a] = split.m.idx();
-        cells_.push_back(vertices);
+        cells_[d] = cells_[c];
+        cells_[d][a] = split.m.idx();
         cells_[c][b] = split.m.idx();
+        // Only the ring that has a vertex's cell changes it, so others read what can't be one of theirs.
+        if (cell_of_b.load(std::memory_order_relaxed) == c) cell_of_b.store(d, std::memory_order_relaxed);
 
         std::array<Index, 4> neighbors = neighbors_[c];
-        if (const Index beyond = neighbors[a]; beyond != none) neighbors_[beyond / 4][beyond % 4] = 4 * d + a;
         for (int side : {k, l}) {
             if (neighbors[side] == none) {
-                ++n_boundary_;
+                ++n_halved_boundary_faces;
                 continue;
             }
             // The neighbour is the cell before or after in the ring, and is split alike.
-            const Index next = neighbors[side] / 4;
             const std::size_t after = r + 1 < n ? r + 1 : 0;
             const std::size_t before = r > 0 ? r - 1 : n - 1;
-            const std::size_t at = split.ring[after].idx() == next ? after : before;
-            assert(split.ring[at].idx() == next);
+            const std::size_t at = split.ring[after].idx() == neighbors[side] / 4 ? after : before;
+            assert(split.ring[at].idx() == neighbors[side] / 4);
             neighbors[side] = 4 * split.new_cell(at) + neighbors[side] % 4;
         }
         neighbors[b] = 4 * c + a;
-        neighbors_.push_back(neighbors);
+        neighbors_[d] = neighbors;
         neighbors_[c][a] = 4 * d + b;
-
-        if (!deleted_cells_.empty()) deleted_cells_.push_back(0);
-        properties_of(EntityKind::cell).for_each([&](BaseProperty& property) {
-            property.push_child(c, split.ratio);
-        });
     }
-    Index& cell_of_b = vertex_cells_[split.b.idx()];
-    cell_of_b = split.child_with_b(cell_of_b);
+    if (n_halved_boundary_faces > 0)
+        std::atomic_ref(n_boundary_).fetch_add(n_halved_boundary_faces, std::memory_order_relaxed);
+}
+
+/// Links the outer faces of a ring, when all rings have been split. A cell that has been split has a vertex
+/// from `first_vertex` on; of its outer faces one stays with it, the one opposite that vertex, and the other
+/// is now its new child's.
+void TetMesh::link_to_others(const Split& split, Index first_vertex) {
+    const auto is_split = [&](Index cell) {
+        return std::ranges::any_of(cells_[cell], [&](Index v) { return v >= first_vertex; });
+    };
+    const auto moved = [&](Index halfface) {
+        const auto cell = halfface / 4, side = halfface % 4;
+        return cells_[cell][side] >= first_vertex ? halfface : neighbors_[cell][side] / 4 * 4 + side;
+    };
+    for (std::size_t r = 0; r < split.ring.size(); ++r) {
+        const auto& local = split.locals[r];
+        const Index kept = 4 * split.ring[r].idx() + local.b;
+        const Index given = 4 * split.new_cell(r) + local.a;
+        for (const Index own : {kept, given}) {
+            Index& opposite = neighbors_[own / 4][own % 4];
+            if (opposite == none) continue;
+            if (is_split(opposite / 4))
+                opposite = moved(opposite);
+            else if (own == given)
+                neighbors_[opposite / 4][opposite % 4] = given;
+        }
+    }
 }
 
 void TetMesh::split_edge_numbers(const Split& split) {
@@ -137,8 +232,8 @@ void TetMesh::split_edge_numbers(const Split& split) {
         place[half_of_b] = 8 * d + local.edge();
     }
     properties_of(EntityKind::edge).for_each([&](BaseProperty& property) {
-        property.push_child(whole, split.ratio);
         property.resize(place.size());
+        property.set_child(whole, half_of_b, split.ratio);
     });
 }
 
@@ -170,8 +265,8 @@ void TetMesh::split_face_numbers(const Split& split) {
         halfface.push_back(4 * c + local.a);
     }
     properties_of(EntityKind::face).for_each([&](BaseProperty& property) {
-        for (Index whole : wholes) property.push_child(whole, split.ratio);
         property.resize(halfface.size());
+        for (Index i = 0; i < wholes.size(); ++i) property.set_child(wholes[i], before + i, split.ratio);
     });
 }
 

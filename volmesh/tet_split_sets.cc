@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <utility>
+
+#include <tbb/parallel_for.h>
 
 #include "volmesh/tet_mesh.hh"
 #include "volmesh/tet_split.hh"
@@ -7,44 +10,50 @@
 
 namespace maille::volmesh {
 
+/// What NamedSets remembers of a split is looked up by many threads; what it hasn't met yet is worked out
+/// afterwards, in order. Returns the combination of each new vertex; nothing where no vertex is born into a
+/// set.
+std::vector<CombinationId> TetMesh::prepare_sets(std::span<const Split> splits) {
+    if (vertex_combinations_.empty() && cell_rows_.empty()) return {};
+    std::vector<CombinationId> born(splits.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, splits.size(), 256), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            born[i] = plan_sets(std::as_const(sets_), splits[i]);
+    });
+    for (std::size_t i = 0; i < splits.size(); ++i)
+        if (born[i] == NamedSets::unknown) born[i] = plan_sets(sets_, splits[i]);
+    if (std::ranges::all_of(born, [](CombinationId id) { return id == 0; })) return {};
+    if (vertex_combinations_.empty()) vertex_combinations_.resize(points_.size(), 0);
+    return born;
+}
+
+/// The sets of the new vertex, looked up before the split. With sets that are constant, `unknown` where they
+/// can't say what becomes of a cell of the ring or of the vertex; else they can from then on.
+template <class Sets>
+CombinationId TetMesh::plan_sets(Sets& sets, const Split& split) const {
+    CombinationId around = 0;
+    if (!cell_rows_.empty()) {
+        for (std::size_t r = 0; r < split.ring.size(); ++r) {
+            const NamedSets::RowId row = cell_rows_[split.ring[r].idx()];
+            const NamedSets::Heritage& heritage = sets.heritage(row, split.locals[r].edge());
+            if (!heritage.is_known()) return NamedSets::unknown;
+            around = sets.unite(around, heritage.sources);
+            if (around == NamedSets::unknown) return around;
+        }
+    }
+    return sets.born({around, combination(split.a), combination(split.b)});
+}
+
 void TetMesh::split_sets(const Split& split) {
     for (std::size_t r = 0; r < split.ring.size(); ++r) {
         const Index c = split.ring[r].idx();
         const auto& local = split.locals[r];
-        auto [first, second] = sets_.split(cell_rows_[c], local.edge());
+        auto [first, second] = std::as_const(sets_).heritage(cell_rows_[c], local.edge()).children;
         if (local.a > local.b)
             std::swap(first, second);  // the first child keeps the edge's lower local number
         cell_rows_[c] = first;
-        cell_rows_.push_back(second);
+        cell_rows_[split.new_cell(r)] = second;
     }
-}
-
-// The vertex sets that m is in by rule, looked up before the split.
-CombinationId TetMesh::born_combination(const Split& split) {
-    if (vertex_combinations_.empty() && cell_rows_.empty()) return 0;
-
-    // The sets that the edge lies in: its own, and those of the faces and cells round it.
-    std::vector<SetHandle> around;
-    const auto add = [&](CombinationId id) {
-        around.insert(around.end(), sets_of(id).begin(), sets_of(id).end());
-    };
-    add(combination(split.ring.front(), split.locals.front().edge()));
-    for (std::size_t r = 0; r < split.ring.size(); ++r) {
-        const NamedSets::Row& row = this->row(split.ring[r]);
-        add(row.cell);
-        add(row.faces[split.locals[r].k]);
-        add(row.faces[split.locals[r].l]);
-    }
-
-    std::vector<SetHandle> born;
-    for (SetHandle source : around) std::ranges::copy(sets_.born_from(source), std::back_inserter(born));
-    for (SetHandle set : sets_of(combination(split.a))) {
-        const SetRule& rule = set_info(set).rule;
-        if (rule.kind != SetRule::Kind::both_ends || !contains(set, split.b)) continue;
-        if (!rule.source.is_valid() || std::ranges::find(around, rule.source) != around.end())
-            born.push_back(set);
-    }
-    return born.empty() ? 0 : sets_.intern(std::move(born));
 }
 
 // So far custom sets have passed to every child of a member; now their functions say which stay.
