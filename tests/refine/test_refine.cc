@@ -1,5 +1,6 @@
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <doctest/doctest.h>
 
@@ -279,6 +280,22 @@ TEST_CASE("the result depends on the input alone") {
             CHECK(std::ranges::equal(first.cell_vertex_indices(), other.cell_vertex_indices()));
             CHECK(std::ranges::equal(first.points(), other.points()));
         }
+    }
+}
+
+TEST_CASE("the result depends on the input alone where there is work for many threads") {
+    const SizeField fine([](const Point& p) { return 0.012 + 0.1 * p.norm(); });
+    std::optional<TetMesh> first;
+    for (const int threads : {1, 2, 4}) {
+        TetMesh mesh = test::random_cube(8, 10, 0.3).mesh();
+        CHECK(refine(mesh, fine, {.threads = threads}).ended);
+        if (!first) {
+            first = mesh;
+            check_valid(mesh, 1);
+            CHECK(mesh.n_cells() > 50'000);
+        }
+        CHECK(std::ranges::equal(first->cell_vertex_indices(), mesh.cell_vertex_indices()));
+        CHECK(std::ranges::equal(first->points(), mesh.points()));
     }
 }
 
