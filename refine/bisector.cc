@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
@@ -67,6 +68,7 @@ double Bisector::longest_squared(CellHandle c) const {
 void Bisector::refresh(std::span<const CellHandle> cells) {
     for (const CellHandle c : cells) {
         std::uint8_t& state = state_[c.idx()];
+        if ((state & changed_bit) == 0) log_.push_back(c);
         state = static_cast<std::uint8_t>((state & born_bit) | changed_bit | longest_edge_.of(c));
     }
 }
@@ -91,7 +93,8 @@ std::vector<CellHandle> Bisector::changed() const {
 std::vector<CellHandle> Bisector::take_changed() {
     std::vector<CellHandle> cells = changed();
     for (const CellHandle c : cells) state_[c.idx()] &= edge_mask;
-    return cells;
+    const std::vector<CellHandle> log = std::exchange(log_, {});
+    return log.size() == cells.size() ? log : cells;
 }
 
 bool Bisector::bisect(CellHandle c) {
@@ -103,6 +106,11 @@ bool Bisector::split(CellHandle c, int local_edge) {
     const auto [i, j] = tet::edge_vertices[local_edge];
     const EdgeStars::Edge edge{mesh_.cell_vertex(c, i), mesh_.cell_vertex(c, j)};
     if (!can_split(edge, {ring.data(), ring.size()})) return false;
+    std::uint32_t child = mesh_.n_cells();
+    for (const CellHandle parent : ring) {
+        if ((state_[parent.idx()] & changed_bit) == 0) log_.push_back(parent);
+        log_.emplace_back(child++);
+    }
     EdgeStars one;
     one.add(edge, {ring.data(), ring.size()});
     split(one);

@@ -23,7 +23,8 @@ class Bisector {
     /// The cells that are new or have changed since they were last taken, ascending (the paper's E_r, and
     /// more): all at first. Cost: a byte is read for each cell of the mesh.
     std::vector<CellHandle> changed() const;
-    /// The same; from then on no cell counts as born or changed.
+    /// The same, but where no more than single splits and `refresh` have changed cells in the order in which
+    /// they did, on which plain bisection depends. From then on no cell counts as born or changed.
     std::vector<CellHandle> take_changed();
     /// To be called when points of these cells have been moved.
     void refresh(std::span<const CellHandle> cells);
@@ -67,7 +68,8 @@ class Bisector {
     TetMesh& mesh_;
     LongestEdge longest_edge_;
     volmesh::Column<std::uint8_t>
-        state_;  ///< by cell: its longest edge, whether it is born, changed, claimed
+        state_;                    ///< by cell: its longest edge, whether it is born, changed, claimed
+    std::vector<CellHandle> log_;  ///< cells that `refresh` and single splits have changed, in order
     Lineage lineage_;
 };
 
