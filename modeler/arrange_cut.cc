@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+// Silences its advice to take Constrained_triangulation_plus_2: that keeps a hierarchy which nobody asks for.
+#define CGAL_NO_CDT_2_WARNING
 #include <CGAL/Constrained_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
