@@ -46,6 +46,14 @@ inline std::map<Region, double> count_cells(const std::vector<std::array<Vector3
     return counts;
 }
 
+/// The arrangement is sound, and its regions have the volumes expected.
+inline void check_volumes(const Arrangement& a, const std::map<Region, double>& expected, double tolerance) {
+    check_sound(a);
+    const auto found = volumes(a.complex);
+    REQUIRE(found.size() == expected.size());
+    for (const auto& [region, v] : expected) CHECK(found.at(region) == doctest::Approx(v).epsilon(tolerance));
+}
+
 inline CsgTree random_tree(std::mt19937& random, std::uint32_t first, std::uint32_t end) {
     if (end - first == 1) return leaf(first);
     CsgTree tree = node(operations[random() % 4], {});

@@ -21,12 +21,8 @@ TEST_CASE("Two boxes at every offset of nothing, a half and one") {
         for (const auto operation : operations) {
             CAPTURE(shift.transpose());
             CAPTURE(int(operation));
-            const Arrangement a = arrange(primitives, pair(operation));
-            check_sound(a);
-            const auto expected = count_cells(corners, pair(operation), 6), found = volumes(a.complex);
-            REQUIRE(found.size() == expected.size());
-            for (const auto& [region, v] : expected)
-                CHECK(found.at(region) == doctest::Approx(v).epsilon(1e-14));
+            check_volumes(arrange(primitives, pair(operation)), count_cells(corners, pair(operation), 6),
+                          1e-14);
         }
     }
 }
@@ -49,23 +45,14 @@ TEST_CASE("Random deep trees of boxes on a grid have the volumes that counting c
         }
         const CsgTree tree = random_tree(random, 0, 12);
         const auto expected = count_cells(corners, tree, 6);
-        const Arrangement a = arrange(primitives, tree);
-        check_sound(a);
-        const auto found = volumes(a.complex);
-        CHECK(found.size() == expected.size());
-        for (const auto& [region, v] : expected) CHECK(found.at(region) == doctest::Approx(v).epsilon(1e-13));
+        check_volumes(arrange(primitives, tree), expected, 1e-13);
 
         // The same turned: no plane is exact any more.
         if (seed % 8 != 0) continue;
         const Eigen::Affine3d motion = random_motion(random, 1);
         std::vector<ClosedSurface> turned;
         for (const auto& p : primitives) turned.push_back(transformed(p, motion));
-        const Arrangement b = arrange(turned, tree);
-        check_sound(b);
-        const auto turned_volumes = volumes(b.complex);
-        CHECK(turned_volumes.size() == expected.size());
-        for (const auto& [region, v] : expected)
-            CHECK(turned_volumes.at(region) == doctest::Approx(v).epsilon(1e-12));
+        check_volumes(arrange(turned, tree), expected, 1e-12);
     }
 }
 

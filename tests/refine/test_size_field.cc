@@ -6,27 +6,14 @@
 
 #include "meshes.hh"
 #include "refine/size_field.hh"
+#include "tests/support/messages.hh"
 #include "volmesh/error.hh"
 
 using maille::InputError;
 using maille::volmesh::VertexHandle;
 using namespace maille::refine;
-
-namespace {
-
-std::string message(const auto& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-}  // namespace
+using maille::test::has;
+using maille::test::message;
 
 TEST_CASE("a constant size is positive and finite") {
     CHECK(SizeField(0.25)(Point(1, 2, 3)) == 0.25);

@@ -8,6 +8,7 @@
 #include "refine/refine.hh"
 #include "refine/simplex_tree.hh"
 #include "refine/size_field.hh"
+#include "tests/support/messages.hh"
 #include "volmesh/error.hh"
 #include "volmesh/validate.hh"
 
@@ -15,25 +16,14 @@
 
 using maille::InputError;
 using namespace maille::refine;
+using maille::test::has;
+using maille::test::message;
 using maille::volmesh::EdgeHandle;
 using maille::volmesh::EntityKind;
 using maille::volmesh::FaceHandle;
 using maille::volmesh::Projector;
 
 namespace {
-
-template <class Action>
-std::string message(const Action& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 class RandomPoints {
   public:
