@@ -63,6 +63,28 @@ class Mesh(MailleCase):
         self.assertAlmostEqual(cells["steel"], info["volume"], 9)
         self.maille("validate", "plate.vtu")
 
+    def test_improvement(self):
+        model = self.model(PLATE)
+        for refined in ((), ("--refine", "0.1+0.1*x")):
+            plain, better = (self.maille_json("mesh", model, "--size", "0.4", *refined, *option, "-o", out)
+                             for option, out in ((("--no-improve",), "plain.vtu"), ((), "better.vtu")))
+            self.assertEqual(plain["edits"], 0)
+            self.assertEqual(plain["cpu_seconds"]["improve"], 0)
+            self.assertGreater(better["edits"], 100)
+            self.assertGreater(better["cpu_seconds"]["improve"], 0)
+            measures = [self.maille_json("quality", name)["measures"] for name in ("plain.vtu", "better.vtu")]
+            self.assertGreater(measures[1]["beta"]["mean"], measures[0]["beta"]["mean"] + 0.02)
+            self.assertGreater(measures[1]["dihedral_min"]["min"], max(18, measures[0]["dihedral_min"]["min"]))
+            self.assertLess(measures[1]["dihedral_max"]["max"], min(150, measures[0]["dihedral_max"]["max"]))
+            plain_sets, better_sets = (self.sets(name, "face") for name in ("plain.vtu", "better.vtu"))
+            self.assertEqual(plain_sets.keys(), better_sets.keys())
+            for side in ("x-", "x+", "y-", "y+"):
+                self.assertAlmostEqual(better_sets[f"plate/{side}"], 3, 12)
+            # On the hole, no farther from the true area.
+            area = 2 * math.pi * 0.8
+            self.assertLess(abs(better_sets["hole/side"] - area), 1.01 * abs(plain_sets["hole/side"] - area))
+            self.maille("validate", "better.vtu")
+
     def test_mesh_refined_and_projected(self):
         summary = self.maille_json("mesh", self.model(PLATE), "--size", "0.6", "--refine", "0.2+0.02*r", "-o", "plate.vtu")
         self.check_summary(summary)
@@ -196,9 +218,16 @@ class Refine(MailleCase):
 
     def test_smooth(self):
         self.mesh("sphere(1);", "0.7")
-        self.maille("refine", "part.vtu", "--size", "0.25", "-o", "plain.vtu")
-        self.maille("refine", "part.vtu", "--size", "0.25", "--smooth", "-o", "smooth.vtu")
-        self.assertNotEqual((self.folder / "plain.vtu").read_bytes(), (self.folder / "smooth.vtu").read_bytes())
+        plain = self.maille_json("refine", "part.vtu", "--size", "0.1+0.1*z*z", "-o", "plain.vtu")
+        smooth = self.maille_json("refine", "part.vtu", "--size", "0.1+0.1*z*z", "--smooth", "-o", "smooth.vtu")
+        self.assertEqual(plain["edits"], 0)
+        self.assertEqual(plain["cpu_seconds"]["improve"], 0)
+        self.assertGreater(smooth["edits"], 0)
+        self.assertGreater(smooth["cpu_seconds"]["improve"], 0)
+        before, after = (self.maille_json("quality", name, "--size", "0.1+0.1*z*z")["measures"]
+                         for name in ("plain.vtu", "smooth.vtu"))
+        self.assertGreater(after["dihedral_min"]["min"], before["dihedral_min"]["min"])
+        self.assertLessEqual(after["phi"]["max"], 1.5)
         self.maille("validate", "smooth.vtu")
 
 
@@ -224,6 +253,18 @@ class Quality(MailleCase):
         self.assertGreaterEqual(after["measures"]["gamma"]["min"], before["measures"]["gamma"]["min"])
         self.assertNotEqual(after, before)
         self.maille("validate", "better.vtu")
+
+    def test_improvement_keeps_to_the_size(self):
+        # Plain bisection's mesh has slivers to cure.
+        self.maille("mesh", self.model(PLATE), "--size", "0.5", "--no-improve", "--refine", "0.12+0.1*x", "-o", "part.vtu")
+        size = ("--size", "0.12+0.1*x")
+        before = self.maille_json("quality", "part.vtu", *size)
+        after = self.maille_json("quality", "part.vtu", *size, "--improve", "better.vtu")
+        self.assertLessEqual(before["measures"]["phi"]["max"], 1.5)
+        self.assertLessEqual(after["measures"]["phi"]["max"], 1.5)
+        self.assertGreater(after["measures"]["dihedral_min"]["min"], before["measures"]["dihedral_min"]["min"])
+        free = self.maille_json("quality", "part.vtu", "--improve", "free.vtu")
+        self.assertNotEqual(free["measures"]["gamma"], after["measures"]["gamma"])
 
 
 class Info(MailleCase):

@@ -4,6 +4,7 @@
 
 #include "tools/maille/commands.hh"
 #include "tools/maille/common_options.hh"
+#include "tools/maille/improvement.hh"
 #include "tools/maille/model_options.hh"
 #include "tools/maille/output_options.hh"
 #include "tools/maille/picture_option.hh"
@@ -19,6 +20,7 @@ struct MeshOptions {
     CommonOptions common;
     ModelOptions model;
     std::optional<std::string> start_size;
+    bool improve = true;
     SizeOptions refined_size;
     refine::RefineOptions refine;
     OutputOptions output;
@@ -34,17 +36,18 @@ void run(const MeshOptions& options) {
     Progress progress(options.common, refined_size.empty() ? 4 : 5);
     progress.step("reading the model");
     const modeler::Model model = read(options.model);
-    std::optional<refine::SizeField> start_size;
-    if (options.start_size) start_size = SizeArgument(*options.start_size).field();
+    const volmesh::Projector projector = modeler::projector(model);
+    StartMeshOptions start{.improve = options.improve, .threads = options.common.threads};
+    if (options.start_size) start.size = SizeArgument(*options.start_size).field();
     summary.clock.end(Phase::read);
 
-    volmesh::TetMesh mesh = start_mesh(model, start_size, options.common.threads, progress, summary);
+    volmesh::TetMesh mesh = start_mesh(model, projector, start, progress, summary);
     if (!refined_size.empty()) {
         progress.step("refining");
-        const volmesh::Projector projector = modeler::projector(model);
         const refine::SizeField size = smallest(refined_size, {&mesh, &projector});
         summary.add(refine_with_progress(mesh, size, options.refine, &projector, progress));
         summary.clock.end(Phase::refine);
+        if (options.improve) improve_refined(mesh, size, options.refine, &projector, progress, summary);
     }
     progress.step("writing");
     write(mesh, options.output);
@@ -71,6 +74,10 @@ void add_mesh_command(CLI::App& program) {
         std::string("Then refine to this size, with new boundary vertices on the true surfaces: ") +
             refined_size_help);
     add_refine_options(command, options->refine);
+    command.add_flag(
+        "!--no-improve", options->improve,
+        "Leave elements as meshing and refinement make them: don't smooth, flip, collapse or split "
+        "to better the worst");
     add_picture_option(command, options->picture);
     add_json_option(command, options->common, "a summary");
 }

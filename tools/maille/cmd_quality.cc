@@ -25,11 +25,12 @@ struct QualityOptions {
     OutputOptions improved;
 };
 
-/// Betters the mesh and writes it. Without a model only vertices inside it move.
-void improve_and_write(volmesh::TetMesh& mesh, const QualityOptions& options) {
+/// Betters the mesh and writes it. Without a model no vertex of a curved surface moves.
+void improve_and_write(volmesh::TetMesh& mesh, const quality::WantedSize* size,
+                       const QualityOptions& options) {
     std::optional<volmesh::Projector> projector;
     if (!options.model.path.empty()) projector = modeler::projector(read(options.model));
-    quality::improve(mesh, {}, projector ? &*projector : nullptr);
+    quality::improve(mesh, {.size = size}, projector ? &*projector : nullptr);
     write(mesh, options.improved);
 }
 
@@ -39,7 +40,7 @@ void run(const QualityOptions& options) {
     if (improves) check_output(options.improved);
     volmesh::TetMesh mesh = volmesh::read_mesh(options.mesh);
     if (options.size) size = SizeArgument(*options.size).field({.mesh = &mesh});
-    if (improves) improve_and_write(mesh, options);
+    if (improves) improve_and_write(mesh, size ? &*size : nullptr, options);
     const quality::Report report = quality::assess(mesh, size ? &*size : nullptr);
     fmt::print("{}",
                options.common.json ? quality::to_json(report).dump(2) + "\n" : quality::to_text(report));
@@ -53,13 +54,14 @@ void add_quality_command(CLI::App& program) {
                                     "maille quality bracket.vtu --size '0.4+3*(1-exp(-r/10))'", options, run);
     command.add_option("MESH", options->mesh, "Mesh file")->required();
     command
-        .add_option("--size", options->size,
-                    std::string("Wanted size, for the size measure phi: ") + size_help)
+        .add_option(
+            "--size", options->size,
+            std::string("Wanted size, for the size measure phi, and kept to by --improve: ") + size_help)
         ->type_name("EXPR");
     CLI::Option* improve = command
                                .add_option("--improve", options->improved.path,
-                                           "Move vertices to better the worst cells, write this "
-                                           "mesh and report on it")
+                                           "Better the worst cells by smoothing, flips, collapse and "
+                                           "split, write this mesh and report on it")
                                ->type_name("OUT");
     add_model_options(command, options->model, "Let vertices on the surfaces of this model move along them")
         ->needs(improve);

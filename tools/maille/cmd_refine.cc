@@ -2,6 +2,7 @@
 
 #include "tools/maille/commands.hh"
 #include "tools/maille/common_options.hh"
+#include "tools/maille/improvement.hh"
 #include "tools/maille/model_options.hh"
 #include "tools/maille/output_options.hh"
 #include "tools/maille/refine_options.hh"
@@ -25,10 +26,11 @@ struct RefineCommandOptions {
 
 /// The mesh to refine: read, or made of the model where that is what was given.
 volmesh::TetMesh read_mesh_or_make(const RefineCommandOptions& options,
-                                   const std::optional<modeler::Model>& model, Progress& progress,
+                                   const std::optional<modeler::Model>& model,
+                                   const volmesh::Projector* projector, Progress& progress,
                                    Summary& summary) {
     if (is_model_file(options.input))
-        return start_mesh(*model, std::nullopt, options.common.threads, progress, summary);
+        return start_mesh(*model, *projector, {.threads = options.common.threads}, progress, summary);
     volmesh::TetMesh mesh = volmesh::read_mesh(options.input);
     summary.clock.end(Phase::read);
     return mesh;
@@ -53,16 +55,17 @@ void run(const RefineCommandOptions& options) {
     Progress progress(options.common, is_model_file(options.input) ? 5 : 3);
     progress.step("reading");
     const std::optional<modeler::Model> model = model_of(options);
-    summary.clock.end(Phase::read);
-    volmesh::TetMesh mesh = read_mesh_or_make(options, model, progress, summary);
-
-    progress.step("refining");
     std::optional<volmesh::Projector> projector;
     if (model) projector = modeler::projector(*model);
     const volmesh::Projector* surfaces = projector ? &*projector : nullptr;
+    summary.clock.end(Phase::read);
+    volmesh::TetMesh mesh = read_mesh_or_make(options, model, surfaces, progress, summary);
+
+    progress.step("refining");
     const refine::SizeField size = smallest(sizes, {&mesh, surfaces});
     summary.add(refine_with_progress(mesh, size, options.refine, surfaces, progress));
     summary.clock.end(Phase::refine);
+    if (options.refine.smooth) improve_refined(mesh, size, options.refine, surfaces, progress, summary);
 
     progress.step("writing");
     write(mesh, options.output);
@@ -83,6 +86,10 @@ void add_refine_command(CLI::App& program) {
     add_size_options(command, "--size", options->size, std::string("Wanted size: ") + refined_size_help)
         ->required();
     add_refine_options(command, options->refine);
+    CLI::Option& smooth = *command.get_option("--smooth");
+    smooth.description(
+        smooth.get_description() +
+        "; in the end better the worst by smoothing, flips, collapse and split, within the size");
     add_model_options(command, options->model, "Put new boundary vertices on the surfaces of this model");
     command.add_flag("!--no-project", options->refine.project,
                      "Leave new boundary vertices where they are born");

@@ -95,9 +95,9 @@ void add_refine_options(CLI::App& command, refine::RefineOptions& options) {
         ->check(CLI::PositiveNumber)
         ->type_name("N");
     command
-        .add_option(
-            "--min-shape", options.min_shape,
-            "No move onto a surface leaves an element of lower gamma, unless one beside it was worse (0.0005)")
+        .add_option("--min-shape", options.min_shape,
+                    "No move onto a surface leaves an element of lower gamma, unless one beside it was worse "
+                    "(0.0005)")
         ->check(CLI::Range(1e-12, 1.0))
         ->type_name("Q");
     command.add_flag("--smooth", options.smooth,

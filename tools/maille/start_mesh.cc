@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "modeler/build.hh"
+#include "tools/maille/improvement.hh"
 #include "tools/maille/refine_options.hh"
 
 namespace maille::tools {
@@ -50,16 +51,23 @@ volmesh::TetMesh build(const modeler::Model& model, double size, int threads, Pr
 
 }  // namespace
 
-volmesh::TetMesh start_mesh(const modeler::Model& model, const std::optional<refine::SizeField>& size,
-                            int threads, Progress& progress, Summary& summary) {
-    if (!size) return build(model, 0, threads, progress, summary);
-    const Range range = range_of(*size, model);
+volmesh::TetMesh start_mesh(const modeler::Model& model, const volmesh::Projector& projector,
+                            const StartMeshOptions& options, Progress& progress, Summary& summary) {
+    const auto& size = options.size;
+    const Range range = size ? range_of(*size, model) : Range{0, 0};
     summary.clock.end(Phase::read);
-    volmesh::TetMesh mesh = build(model, range.greatest, threads, progress, summary);
-    if (range.least < range.greatest) {
-        const volmesh::Projector projector = modeler::projector(model);
-        summary.add(refine_with_progress(mesh, *size, {.threads = threads}, &projector, progress));
+    volmesh::TetMesh mesh = build(model, range.greatest, options.threads, progress, summary);
+    const refine::RefineOptions to_size{.threads = options.threads};
+    const auto improve = [&](const refine::SizeField* wanted) {
+        if (options.improve)
+            improve_with_progress(mesh, wanted, to_size.ratio, &projector, progress, summary);
+    };
+    const bool is_graded = range.least < range.greatest;
+    improve(size && !is_graded ? &*size : nullptr);
+    if (is_graded) {
+        summary.add(refine_with_progress(mesh, *size, to_size, &projector, progress));
         summary.clock.end(Phase::refine);
+        improve(&*size);
     }
     return mesh;
 }

@@ -10,7 +10,8 @@ void print_json(const Summary& summary, const volmesh::TetMesh& mesh) {
         {"cells", mesh.n_cells()},
         {"vertices", mesh.n_vertices()},
         {"iterations", summary.iterations},
-        {"projection", {{"moved", summary.moved}, {"short_of_target", summary.short_of_target}}}};
+        {"projection", {{"moved", summary.moved}, {"short_of_target", summary.short_of_target}}},
+        {"edits", summary.edits}};
     summary.clock.write_to(json);
     fmt::print("{}\n", json.dump(2));
 }
@@ -21,6 +22,7 @@ void print_text(const Summary& summary, const volmesh::TetMesh& mesh, const std:
     if (summary.iterations > 0)
         fmt::print("refined in {} passes; {} vertices moved onto their surfaces, {} short of them\n",
                    summary.iterations, summary.moved, summary.short_of_target);
+    if (summary.edits > 0) fmt::print("improved by {} edits\n", summary.edits);
     fmt::print("{:.2f} s, {:.2f} s of processor time\n", summary.clock.total().wall,
                summary.clock.total().cpu);
 }

@@ -14,6 +14,7 @@ struct Summary {
     int iterations = 0;
     std::size_t moved = 0;            ///< vertices that were projected
     std::size_t short_of_target = 0;  ///< vertices that are not on their surfaces
+    std::size_t edits = 0;            ///< of improvement: moves and changes of connectivity
     PhaseClock clock;
 
     void add(const refine::RefineResult& result);
