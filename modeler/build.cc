@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "modeler/build_size.hh"
+#include "modeler/closed_surface.hh"
 #include "modeler/merge_operand.hh"
 #include "modeler/parallel.hh"
 #include "modeler/phase_timer.hh"
@@ -46,19 +47,6 @@ void mark_owners(const CsgTree& tree, std::vector<std::uint8_t>& marks) {
         mark_owners(child, marks);
         if (first_only) return;
     }
-}
-
-ClosedSurface closed_surface(const volmesh::TriMesh& mesh, std::uint32_t first_surface) {
-    ClosedSurface result;
-    for (const auto v : mesh.vertices()) result.points.push_back(mesh.point(v));
-    for (const auto f : mesh.faces()) {
-        std::array<std::uint32_t, 3> triangle{};
-        auto corner = triangle.begin();
-        for (const auto v : mesh.fv_range(f)) *corner++ = static_cast<std::uint32_t>(v.idx());
-        result.triangles.push_back(triangle);
-        result.surfaces.push_back(first_surface + surface_of(mesh, f));
-    }
-    return result;
 }
 
 /// The number of each primitive's first surface.

@@ -1,23 +1,28 @@
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "modeler/arguments.hh"
+#include "modeler/hull.hh"
 #include "modeler/language_extrude.hh"
 #include "modeler/language_outline.hh"
+#include "modeler/language_resize.hh"
 #include "modeler/language_solids.hh"
 #include "modeler/language_transforms.hh"
 #include "modeler/model.hh"
+#include "modeler/name_table.hh"
 #include "modeler/shapes.hh"
+#include "modeler/solid_extent.hh"
 #include "modeler/tree_building.hh"
 
 namespace maille::modeler {
 namespace {
 
-constexpr std::pair<std::string_view, Operation> operations[] = {
+constexpr NameRow<std::optional<Operation>> operations[] = {
     {"union", Operation::join},
     {"group", Operation::join},
     {"color", Operation::join},
@@ -29,19 +34,17 @@ constexpr std::pair<std::string_view, Operation> operations[] = {
 
 constexpr std::string_view attributes[] = {"name", "size", "material"};
 
+/// Nodes that are in no table.
+constexpr std::string_view more_nodes[] = {"halfspace", "hull", "resize"};
+
 /// Nodes of OpenSCAD's dumps that make or use what this language has not.
 constexpr std::string_view unsupported[] = {
-    "text", "import", "surface", "minkowski", "resize", "projection", "roof", "intersection_for",
+    "text", "surface", "minkowski", "projection", "roof", "intersection_for",
 };
 
 /// Words of OpenSCAD's full language, which its dumps no longer hold.
 constexpr std::string_view full_language[] = {"module", "function", "for",      "if",  "else",    "let",
                                               "assert", "echo",     "children", "use", "include", "each"};
-
-const Operation* find_operation(std::string_view name) {
-    const auto found = std::ranges::find(operations, name, [](const auto& entry) { return entry.first; });
-    return found == std::end(operations) ? nullptr : &found->second;
-}
 
 bool is_one_of(std::string_view name, std::span<const std::string_view> names) {
     return std::ranges::find(names, name) != names.end();
@@ -63,34 +66,35 @@ struct PendingHalfspace {
     Point normal;
 };
 
+/// The factors of the `resize` nodes met so far.
+using Resizes = std::map<const Node*, Point>;
+
+/// The node marked as the whole model, if there is one; the first, if there are more.
+const Node* find_root(const std::vector<Node>& nodes) {
+    for (const Node& node : nodes) {
+        if (node.disabled) continue;
+        if (node.is_root) return &node;
+        if (const Node* root = find_root(node.children)) return root;
+    }
+    return nullptr;
+}
+
 /// Turns the nodes of one file into a model.
 class ModelMaker {
   public:
-    explicit ModelMaker(const std::string& file) : file_(file) {}
+    /// `resizes` remembers the factors of `resize` nodes: those in others are asked for again and again.
+    ModelMaker(const std::string& file, Resizes& resizes) : file_(file), resizes_(resizes) {}
 
-    Model make(const std::vector<Node>& nodes, Facets facets) {
+    Model make(std::span<const Node> nodes, Facets facets) {
         const Context context{.placement = {.facets = facets}, .name = {}, .material = {}};
-        const Node* root = find_root(nodes);
-        model_.tree =
-            root != nullptr ? tree_of(*root, context) : combine(Operation::join, trees_of(nodes, context));
-        if (is_empty(model_.tree))
-            throw InputError(fmt::format("{}: the model is empty: it has no solid", file_));
+        model_.tree = combine(Operation::join, trees_of(nodes, context));
         shape_halfspaces();
         drop_unused_primitives(model_);
         return std::move(model_);
     }
 
   private:
-    static const Node* find_root(const std::vector<Node>& nodes) {
-        for (const Node& node : nodes) {
-            if (node.ignored) continue;
-            if (node.is_root) return &node;
-            if (const Node* root = find_root(node.children)) return root;
-        }
-        return nullptr;
-    }
-
-    std::vector<CsgTree> trees_of(const std::vector<Node>& nodes, const Context& context) {
+    std::vector<CsgTree> trees_of(std::span<const Node> nodes, const Context& context) {
         std::vector<CsgTree> trees;
         for (const Node& node : nodes)
             if (!node.ignored) trees.push_back(tree_of(node, context));
@@ -106,10 +110,15 @@ class ModelMaker {
         if (const Extruder extrude = find_extruder(node.name))
             return add_primitives(node, context, extrude(node, file_, context.placement));
         if (const TransformReader read = find_transform(node.name))
-            return combine(Operation::join, trees_of(node.children, transformed(node, read, context)));
+            return combine(Operation::join,
+                           trees_of(node.children, transformed(node, read(node, file_), context)));
+        if (node.name == "resize")
+            return combine(Operation::join,
+                           trees_of(node.children, transformed(node, resize(node, context), context)));
+        if (node.name == "hull") return add_hull(node, context);
         if (is_one_of(node.name, attributes))
             return combine(Operation::join, trees_of(node.children, with_attribute(node, context)));
-        if (const Operation* operation = find_operation(node.name)) {
+        if (const auto operation = look_up(operations, node.name)) {
             if (node.name == "color")
                 const Arguments checked(node, file_, {"c", "alpha"});
             else
@@ -130,8 +139,6 @@ class ModelMaker {
             return located_error(
                 file_, node.at,
                 fmt::format("'{}' is flat: it stands in a linear_extrude or rotate_extrude only", node.name));
-        if (node.name == "hull")
-            return located_error(file_, node.at, "'hull' is supported for flat shapes only, in an extrusion");
         if (is_one_of(node.name, unsupported))
             return located_error(file_, node.at, fmt::format("'{}' is not supported", node.name));
         if (is_one_of(node.name, full_language))
@@ -140,18 +147,41 @@ class ModelMaker {
                                              "(openscad -o part.csg part.scad)",
                                              node.name));
         std::vector<std::string_view> known = solid_names();
-        known.emplace_back("halfspace");
+        std::ranges::copy(more_nodes, std::back_inserter(known));
         std::ranges::copy(extruder_names(), std::back_inserter(known));
         std::ranges::copy(transform_names(), std::back_inserter(known));
         std::ranges::copy(attributes, std::back_inserter(known));
-        for (const auto& [name, operation] : operations) known.push_back(name);
+        std::ranges::copy(names_of(operations), std::back_inserter(known));
         return located_error(file_, node.at,
                              fmt::format("unknown node '{}'{}", node.name, suggestion(node.name, known)));
     }
 
-    Context transformed(const Node& node, TransformReader read, const Context& context) const {
+    /// The nodes in a node as a model of their own, not moved by what is around it.
+    Model alone(const Node& node, Facets facets) const {
+        return ModelMaker(file_, resizes_).make(node.children, facets);
+    }
+
+    Eigen::Affine3d resize(const Node& node, const Context& context) const {
+        auto known = resizes_.find(&node);
+        if (known == resizes_.end()) {
+            const Model inner = alone(node, context.placement.facets);
+            known = resizes_.emplace(&node, resize_factors(node, file_, solid_box(inner))).first;
+        }
+        return Eigen::Affine3d(Eigen::Scaling(known->second));
+    }
+
+    CsgTree add_hull(const Node& node, const Context& context) {
+        const Arguments arguments(node, file_, {});
+        const Model inner = alone(node, Facets::keep);
+        if (is_empty(inner.tree)) return {};
+        return add_primitive(node, context, at_node(arguments, [&] {
+                                 return make_hull(boundary_points(inner), context.placement.frame);
+                             }));
+    }
+
+    Context transformed(const Node& node, const Eigen::Affine3d& map, const Context& context) const {
         Context result = context;
-        result.placement.frame = context.placement.frame * read(node, file_);
+        result.placement.frame = context.placement.frame * map;
         if (!is_regular(result.placement.frame))
             throw located_error(file_, node.at,
                                 fmt::format("'{}' flattens its children or has no inverse", node.name));
@@ -245,6 +275,7 @@ class ModelMaker {
     }
 
     const std::string& file_;
+    Resizes& resizes_;
     Model model_;
     std::vector<PendingHalfspace> halfspaces_;
 };
@@ -252,7 +283,13 @@ class ModelMaker {
 }  // namespace
 
 Model parse_model(std::string_view text, const std::string& name, Facets facets) {
-    return ModelMaker(name).make(parse(text, name), facets);
+    const std::vector<Node> nodes = parse(text, name);
+    const Node* root = find_root(nodes);
+    Resizes resizes;
+    Model model =
+        ModelMaker(name, resizes).make(root != nullptr ? std::span(root, 1) : std::span(nodes), facets);
+    if (is_empty(model.tree)) throw InputError(fmt::format("{}: the model is empty: it has no solid", name));
+    return model;
 }
 
 Model read_model(const std::filesystem::path& path, Facets facets) {

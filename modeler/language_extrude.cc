@@ -11,6 +11,7 @@
 #include "modeler/language_facets.hh"
 #include "modeler/language_outline.hh"
 #include "modeler/language_transforms.hh"
+#include "modeler/name_table.hh"
 #include "modeler/shapes.hh"
 
 namespace maille::modeler {
@@ -65,7 +66,7 @@ class RoundExtruder {
                                              extrusion_.center, placement_.frame * in_space(map));
                     })};
         }
-        if (const Operation* operation = find_flat_operation(node.name))
+        if (const auto operation = find_flat_operation(node.name))
             return extrude(node.children, map, *operation);
         if (find_transform(node.name))
             return extrude(node.children, map * flat_map(node, file_), Operation::join);
@@ -141,20 +142,16 @@ ShapeTree rotate(const Node& node, const std::string& file, const Placement& pla
     });
 }
 
-constexpr std::pair<std::string_view, Extruder> extruders[] = {{"linear_extrude", linear},
-                                                               {"rotate_extrude", rotate}};
+constexpr NameRow<Extruder> extruders[] = {{"linear_extrude", linear}, {"rotate_extrude", rotate}};
 
 }  // namespace
 
 Extruder find_extruder(std::string_view name) {
-    const auto found = std::ranges::find(extruders, name, [](const auto& entry) { return entry.first; });
-    return found == std::end(extruders) ? nullptr : found->second;
+    return look_up(extruders, name);
 }
 
 std::vector<std::string_view> extruder_names() {
-    std::vector<std::string_view> names;
-    for (const auto& [name, extruder] : extruders) names.push_back(name);
-    return names;
+    return names_of(extruders);
 }
 
 }  // namespace maille::modeler

@@ -8,7 +8,9 @@
 
 #include "modeler/arguments.hh"
 #include "modeler/language_facets.hh"
+#include "modeler/language_resize.hh"
 #include "modeler/language_transforms.hh"
+#include "modeler/name_table.hh"
 
 namespace maille::modeler {
 namespace {
@@ -92,34 +94,40 @@ Outline hull(const Node& node, const std::string& file) {
     return convex_hull(outlines_of(node.children, file));
 }
 
+Outline resize(const Node& node, const std::string& file) {
+    const Outline shape = outline_of(node.children, file);
+    Eigen::AlignedBox3d box;
+    for (const PlaneRegion& region : shape)
+        for (const Point2& p : region.front()) box.extend(Point(p.x(), p.y(), 0));
+    const Point factors = resize_factors(node, file, box);
+    return transformed(shape, Eigen::Affine2d(Eigen::Scaling(factors.x(), factors.y())));
+}
+
 using OutlineMaker = Outline (*)(const Node&, const std::string&);
 
-constexpr std::pair<std::string_view, OutlineMaker> makers[] = {
-    {"circle", circle}, {"square", square}, {"polygon", polygon}, {"offset", offset_of}, {"hull", hull}};
+constexpr NameRow<OutlineMaker> makers[] = {{"circle", circle},    {"square", square}, {"polygon", polygon},
+                                            {"offset", offset_of}, {"hull", hull},     {"resize", resize}};
 
-constexpr std::pair<std::string_view, Operation> operations[] = {{"union", Operation::join},
-                                                                 {"group", Operation::join},
-                                                                 {"color", Operation::join},
-                                                                 {"render", Operation::join},
-                                                                 {"difference", Operation::difference},
-                                                                 {"intersection", Operation::intersection}};
+constexpr NameRow<std::optional<Operation>> operations[] = {{"union", Operation::join},
+                                                            {"group", Operation::join},
+                                                            {"color", Operation::join},
+                                                            {"render", Operation::join},
+                                                            {"difference", Operation::difference},
+                                                            {"intersection", Operation::intersection}};
 
 }  // namespace
 
 bool is_flat_node(std::string_view name) {
-    return name != "hull" &&
-           std::ranges::find(makers, name, [](const auto& entry) { return entry.first; }) != std::end(makers);
+    return name != "hull" && name != "resize" && look_up(makers, name) != nullptr;
 }
 
-const Operation* find_flat_operation(std::string_view name) {
-    const auto found = std::ranges::find(operations, name, [](const auto& entry) { return entry.first; });
-    return found == std::end(operations) ? nullptr : &found->second;
+std::optional<Operation> find_flat_operation(std::string_view name) {
+    return look_up(operations, name);
 }
 
 Outline outline_of(const Node& node, const std::string& file) {
-    const auto maker = std::ranges::find(makers, node.name, [](const auto& entry) { return entry.first; });
-    if (maker != std::end(makers)) return maker->second(node, file);
-    if (const Operation* operation = find_flat_operation(node.name))
+    if (const OutlineMaker make = look_up(makers, node.name)) return make(node, file);
+    if (const auto operation = find_flat_operation(node.name))
         return combine(*operation, outlines_of(node.children, file));
     if (find_transform(node.name)) return transformed(outline_of(node.children, file), flat_map(node, file));
     throw located_error(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,8 +13,8 @@ namespace maille::modeler {
 /// Whether the name is that of a node that makes or changes flat shapes only: `circle`, `offset`, ...
 bool is_flat_node(std::string_view name);
 
-/// How a node between an extrusion and its flat shapes combines them; null for other nodes.
-const Operation* find_flat_operation(std::string_view name);
+/// How a node between an extrusion and its flat shapes combines them; nothing for other nodes.
+std::optional<Operation> find_flat_operation(std::string_view name);
 
 /// The flat shape that a node makes, with the polygons that OpenSCAD makes of circles. Throws InputError with
 /// file, line and column where the node, or one in it, makes none.

@@ -8,6 +8,8 @@
 
 #include "modeler/arguments.hh"
 #include "modeler/language_facets.hh"
+#include "modeler/language_import.hh"
+#include "modeler/name_table.hh"
 #include "modeler/shapes.hh"
 
 namespace maille::modeler {
@@ -155,7 +157,7 @@ ShapePointer polyhedron(const Node& node, const std::string& file, const Placeme
     return at_node(arguments, [&] { return shape_of(std::move(solid), placement.frame); });
 }
 
-constexpr std::pair<std::string_view, SolidMaker> solids[] = {
+constexpr NameRow<SolidMaker> solids[] = {
     {"cube", cube},
     {"sphere", sphere},
     {"cylinder", cylinder},
@@ -166,19 +168,17 @@ constexpr std::pair<std::string_view, SolidMaker> solids[] = {
     {"pyramid", regular<make_pyramid>},
     {"tetrahedron", tetrahedron},
     {"polyhedron", polyhedron},
+    {"import", import},
 };
 
 }  // namespace
 
 SolidMaker find_solid(std::string_view name) {
-    const auto found = std::ranges::find(solids, name, [](const auto& solid) { return solid.first; });
-    return found == std::end(solids) ? nullptr : found->second;
+    return look_up(solids, name);
 }
 
 std::vector<std::string_view> solid_names() {
-    std::vector<std::string_view> names;
-    for (const auto& [name, maker] : solids) names.push_back(name);
-    return names;
+    return names_of(solids);
 }
 
 }  // namespace maille::modeler

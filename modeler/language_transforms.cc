@@ -1,12 +1,10 @@
 #include "modeler/language_transforms.hh"
 
-#include <algorithm>
-#include <utility>
-
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "modeler/arguments.hh"
+#include "modeler/name_table.hh"
 #include "modeler/openscad_facets.hh"
 
 namespace maille::modeler {
@@ -79,7 +77,7 @@ Eigen::Affine3d multmatrix(const Node& node, const std::string& file) {
     return Eigen::Affine3d(matrix);
 }
 
-constexpr std::pair<std::string_view, TransformReader> transforms[] = {
+constexpr NameRow<TransformReader> transforms[] = {
     {"multmatrix", multmatrix}, {"translate", translate}, {"rotate", rotate},
     {"scale", scale},           {"mirror", mirror},
 };
@@ -87,14 +85,11 @@ constexpr std::pair<std::string_view, TransformReader> transforms[] = {
 }  // namespace
 
 TransformReader find_transform(std::string_view name) {
-    const auto found = std::ranges::find(transforms, name, [](const auto& entry) { return entry.first; });
-    return found == std::end(transforms) ? nullptr : found->second;
+    return look_up(transforms, name);
 }
 
 std::vector<std::string_view> transform_names() {
-    std::vector<std::string_view> names;
-    for (const auto& [name, reader] : transforms) names.push_back(name);
-    return names;
+    return names_of(transforms);
 }
 
 bool is_regular(const Eigen::Affine3d& map) {

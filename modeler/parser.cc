@@ -72,6 +72,7 @@ class Parser {
         Node result;
         while (is_symbol('%') || is_symbol('*') || is_symbol('#') || is_symbol('!')) {
             result.ignored |= is_symbol('%') || is_symbol('*');
+            result.disabled |= is_symbol('*');
             result.is_root |= is_symbol('!');
             ++position_;
         }

@@ -25,8 +25,9 @@ struct Argument {
 struct Node {
     std::string name;
     Location at{};
-    bool ignored = false;  ///< marked with `%` or `*`
-    bool is_root = false;  ///< marked with `!`: the model is this node alone
+    bool ignored = false;   ///< marked with `%` or `*`
+    bool disabled = false;  ///< marked with `*`: a root in it does not count either
+    bool is_root = false;   ///< marked with `!`: the model is this node alone
     std::vector<Argument> arguments{};
     std::vector<Node> children{};
 };

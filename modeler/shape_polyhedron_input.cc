@@ -8,6 +8,7 @@
 
 #include "modeler/shape_frame.hh"
 #include "modeler/shape_polyhedron.hh"
+#include "modeler/shape_polyhedron_sense.hh"
 #include "modeler/shapes.hh"
 #include "volmesh/error.hh"
 
@@ -127,26 +128,6 @@ void check_fans(const Faces& faces, const std::map<DirectedEdge, std::uint32_t>&
     }
 }
 
-double volume(const std::vector<Point>& points, const Faces& faces, const Point& origin) {
-    double sum = 0;
-    for (const PolyhedronFace& face : faces)
-        sum += area_vector(points, face.loops).dot(points[face.loops.front().front()] - origin) / 6;
-    return sum;
-}
-
-void turn_outwards(const std::vector<Point>& points, Faces& faces) {
-    Eigen::AlignedBox3d box;
-    for (const PolyhedronFace& face : faces)
-        for (const Loop& loop : face.loops)
-            for (std::uint32_t vertex : loop) box.extend(points[vertex]);
-    const double enclosed = volume(points, faces, box.center());
-    if (!(std::abs(enclosed) > 1e-14 * std::pow(box.diagonal().norm(), 3)))
-        throw InputError("the polyhedron encloses no volume");
-    if (enclosed > 0) return;
-    for (PolyhedronFace& face : faces)
-        for (Loop& loop : face.loops) std::ranges::reverse(loop);
-}
-
 /// Appends the face, in triangles if it is not planar.
 void add_polygons(const std::vector<Point>& points, const PolyhedronFace& face,
                   std::vector<Polyhedron::Polygon>& polygons) {
@@ -184,6 +165,7 @@ std::shared_ptr<const Shape> make_polyhedron(std::vector<Point> points, std::vec
     check_frame(frame);
     check_indices(points, faces);
     weld(points, faces);
+    agree_on_sense(faces);
     check_fans(faces, check_closed(faces));
     for (Point& p : points) p = frame * p;
     merge_close_coordinates(points);

@@ -1,13 +1,11 @@
 #include <string>
 
-#include <doctest/doctest.h>
-
-#include "modeler/model.hh"
 #include "modeler/parser.hh"
-#include "volmesh/error.hh"
+#include "tests/modeler/language_checks.hh"
 
 using namespace maille;
 using namespace maille::modeler;
+using namespace maille::modeler::test;
 
 namespace {
 
@@ -15,15 +13,6 @@ struct BadInput {
     std::string text;
     std::string message;
 };
-
-std::string message_of(const std::string& text) {
-    try {
-        parse_model(text, "part.csg");
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 void check_all(std::initializer_list<BadInput> inputs) {
     for (const auto& [text, message] : inputs) {
@@ -86,7 +75,9 @@ TEST_CASE("unknown and unsupported nodes are named") {
         {"cube(1); minkowski() { cube(1); sphere(1); }", "1:10: 'minkowski' is not supported"},
         {"polygon(points = [[0, 0]], paths = undef);",
          "1:1: 'polygon' is flat: it stands in a linear_extrude or rotate_extrude only"},
-        {"hull() cube(1);", "1:1: 'hull' is supported for flat shapes only, in an extrusion"},
+        {"projection(cut = false) cube(1);", "1:1: 'projection' is not supported"},
+        {"union() {\n  surface(file = \"a.dat\", center = false, invert = false, convexity = 1);\n}",
+         "2:3: 'surface' is not supported"},
         {"linear_extrude(height = 1) cube(1);",
          "1:28: 'cube' has no place in an extrusion: only flat shapes do (circle, square, polygon, offset, "
          "hull), their unions, differences and intersections, and transforms"},
@@ -94,7 +85,6 @@ TEST_CASE("unknown and unsupported nodes are named") {
          "1:28: 'text' has no place in an extrusion: only flat shapes do (circle, square, polygon, offset, "
          "hull), their unions, differences and intersections, and transforms"},
         {"text(\"a\");", "1:1: 'text' is not supported"},
-        {"import(file = \"a.stl\");", "1:1: 'import' is not supported"},
         {"for(i = 1) cube(1);",
          "1:1: 'for' is not supported: have OpenSCAD write the .csg file (openscad -o part.csg part.scad)"},
     });

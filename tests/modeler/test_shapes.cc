@@ -340,7 +340,8 @@ TEST_CASE("Polyhedra that bound no solid are refused with a reason") {
     CHECK(message({good[0], good[1], good[2]}, points).find("at least four faces") != std::string::npos);
     Faces turned = good;
     std::ranges::reverse(turned[3]);
-    CHECK(message(turned, points).find("opposite senses") != std::string::npos);
+    CHECK(make_polyhedron(points, turned, names)->contains({0.2, 0.2, 0.2}));
+    CHECK(message({good[0], good[0], good[1], good[2]}, points).find("opposite senses") != std::string::npos);
     Faces wrong = good;
     wrong[2][0] = 9;
     CHECK(message(wrong, points).find("point 9") != std::string::npos);
