@@ -1,9 +1,12 @@
 #include <algorithm>
-#include <map>
+#include <array>
+#include <limits>
 #include <queue>
+#include <vector>
 
 #include <Eigen/Geometry>
 
+#include "modeler/arrange_box_tree.hh"
 #include "modeler/remesh_check.hh"
 #include "modeler/remesh_passes.hh"
 
@@ -59,68 +62,130 @@ bool face_each_other(const Net& net, Index v, Index t, const Vec3& from_v_to_t) 
            });
 }
 
-/// The width of the gap between v and other sheets, up to `reach`. Those that meet in a curve beside v make
-/// no gap.
-double gap_to_sheets(const Net& net, Index v, std::span<const Index> nearby, double reach) {
-    const auto next = net.neighbours(v);
-    const auto is_next = [&](Index w) { return w == v || std::ranges::binary_search(next, w); };
-    double gap = reach;
-    for (const Index t : nearby) {
-        if (std::ranges::any_of(net.triangle(t).vertices, is_next)) continue;
-        const Vec3 to_sheet = nearest_on_triangle(net.corners(t), net.point(v)) - net.point(v);
-        const double distance = to_sheet.norm();
-        if (distance > 0 && distance < gap && face_each_other(net, v, t, to_sheet)) gap = distance;
+/// Finds how wide the gaps between sheets and the strips between curves are around vertices. The net must not
+/// change while it does.
+class GapFinder {
+  public:
+    explicit GapFinder(const Net& net)
+        : net_(net), curves_(net.n_vertices()), at_curve_(net.n_triangles()), boxes_(boxes_of(net, alive_)) {
+        for (const auto& [a, b] : net.edges()) {
+            if (!net.is_feature(a, b)) continue;
+            curves_[a].push_back(b);
+            curves_[b].push_back(a);
+            for (const Index t : net.triangles_at(a, b)) at_curve_[t][side(net.triangle(t), a, b)] = true;
+        }
+        ways_.assign(net.n_vertices(), unreached);
     }
-    return gap;
-}
 
-/// The way from v to other vertices along feature edges, as far as `reach`.
-std::map<Index, double> ways_along_curves(const Net& net, Index v, double reach) {
-    std::map<Index, double> ways;
-    std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>>
-        queue;
-    queue.push({0, v});
-    while (!queue.empty()) {
-        const auto [way, w] = queue.top();
-        queue.pop();
-        if (!ways.try_emplace(w, way).second) continue;
-        for (const Index x : net.feature_neighbours(w))
-            if (way + net.length(w, x) <= reach) queue.push({way + net.length(w, x), x});
+    /// The size that suits the sheets and curves close to v: at most the one wanted. One below `least` counts
+    /// as that. Most gaps are found near by: looking further step by step spares looking far.
+    double size_at(Index v, double wanted, double least) {
+        const double furthest = wanted / std::min(sizes_in_gap, sizes_in_strip);
+        const double nearest = least / std::max(sizes_in_gap, sizes_in_strip);
+        double size = wanted;
+        for (double reach = std::min(nearest, furthest);; reach = std::min(2 * reach, furthest)) {
+            collect(v, reach);
+            size = std::min(size, sizes_in_gap * gap_to_sheets(v, reach, size / sizes_in_gap));
+            if (net_.kind(v) != VertexKind::face)
+                size = std::min(size, sizes_in_strip * gap_to_curves(v, reach, size / sizes_in_strip));
+            // Whatever is further away makes it no smaller.
+            if (reach >= furthest || size <= std::max(least, std::min(sizes_in_gap, sizes_in_strip) * reach))
+                return std::max(size, least);
+        }
     }
-    return ways;
-}
 
-/// The width of the strip between v, on a curve, and other curves, or distant parts of its own; up to
-/// `reach`.
-double gap_to_curves(const Net& net, Index v, std::span<const Index> nearby, double reach) {
-    const auto ways = ways_along_curves(net, v, least_detour * reach);
-    const auto is_detour = [&](Index w, double distance) {
-        const auto found = ways.find(w);
-        return found == ways.end() || found->second > least_detour * distance;
-    };
-    double gap = reach;
-    for (const Index t : nearby)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Index a = net.triangle(t).vertices[i];
-            const Index b = net.triangle(t).vertices[(i + 1) % 3];
-            const double distance = distance_to_segment(net.point(v), net.point(a), net.point(b));
-            if (distance < gap && is_detour(a, distance) && is_detour(b, distance) && net.is_feature(a, b))
+  private:
+    static constexpr double unreached = std::numeric_limits<double>::infinity();
+
+    static std::vector<Eigen::AlignedBox3d> boxes_of(const Net& net, std::vector<Index>& alive) {
+        std::vector<Eigen::AlignedBox3d> boxes;
+        for (Index t = 0; t < net.n_triangles(); ++t) {
+            if (!net.is_alive(t)) continue;
+            const auto [a, b, c] = net.corners(t);
+            boxes.push_back(Eigen::AlignedBox3d(a).extend(b).extend(c));
+            alive.push_back(t);
+        }
+        return boxes;
+    }
+
+    static std::size_t side(const Triangle& triangle, Index a, Index b) {
+        for (std::size_t i = 0; i < 2; ++i)
+            if (const auto& v = triangle.vertices; (v[i] == a || v[i] == b) && (v[i + 1] == a || v[i + 1] == b))
+                return i;
+        return 2;
+    }
+
+    void collect(Index v, double reach) {
+        const Vec3& p = net_.point(v);
+        nearby_.clear();
+        boxes_.visit_box({p - Vec3::Constant(reach), p + Vec3::Constant(reach)}, [&](std::uint32_t i) {
+            nearby_.push_back(alive_[i]);
+            return true;
+        });
+    }
+
+    /// The width of the gap between v and other sheets, if it is less than `reach` and `gap`; else `gap`.
+    /// Those that meet in a curve beside v make no gap.
+    double gap_to_sheets(Index v, double reach, double gap) const {
+        const auto next = net_.neighbours(v);
+        const auto is_next = [&](Index w) { return w == v || std::ranges::binary_search(next, w); };
+        for (const Index t : nearby_) {
+            if (std::ranges::any_of(net_.triangle(t).vertices, is_next)) continue;
+            const Vec3 to_sheet = nearest_on_triangle(net_.corners(t), net_.point(v)) - net_.point(v);
+            const double distance = to_sheet.norm();
+            if (distance > 0 && distance < std::min(gap, reach) && face_each_other(net_, v, t, to_sheet))
                 gap = distance;
         }
-    return gap;
-}
+        return gap;
+    }
 
-/// The size that suits the sheets and curves close to v, at most the one wanted.
-double size_in_gaps(const Net& net, Index v, double wanted) {
-    const double reach = wanted / std::min(sizes_in_gap, sizes_in_strip);
-    const Vec3& p = net.point(v);
-    std::vector<Index> nearby;
-    net.grid().collect(Eigen::AlignedBox3d(p - Vec3::Constant(reach), p + Vec3::Constant(reach)), nearby);
-    double size = std::min(wanted, sizes_in_gap * gap_to_sheets(net, v, nearby, reach));
-    if (net.kind(v) != VertexKind::face)
-        size = std::min(size, sizes_in_strip * gap_to_curves(net, v, nearby, reach));
-    return size;
-}
+    /// The width of the strip between v, on a curve, and other curves, or distant parts of its own; if it is
+    /// less than `reach` and `gap`; else `gap`.
+    double gap_to_curves(Index v, double reach, double gap) {
+        find_ways(v, least_detour * reach);
+        for (const Index t : nearby_)
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (!at_curve_[t][i]) continue;
+                const Index a = net_.triangle(t).vertices[i];
+                const Index b = net_.triangle(t).vertices[(i + 1) % 3];
+                const double distance = distance_to_segment(net_.point(v), net_.point(a), net_.point(b));
+                if (distance < std::min(gap, reach) && ways_[a] > least_detour * distance &&
+                    ways_[b] > least_detour * distance)
+                    gap = distance;
+            }
+        for (const Index w : reached_) ways_[w] = unreached;
+        return gap;
+    }
+
+    /// The ways from v to other vertices along curves, as far as `reach` (Dijkstra).
+    void find_ways(Index v, double reach) {
+        using Entry = std::pair<double, Index>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        reached_.clear();
+        const auto consider = [&](double way, Index w) {
+            if (way > reach || way >= ways_[w]) return;
+            if (ways_[w] == unreached) reached_.push_back(w);
+            ways_[w] = way;
+            queue.push({way, w});
+        };
+        consider(0, v);
+        while (!queue.empty()) {
+            const auto [way, w] = queue.top();
+            queue.pop();
+            if (way > ways_[w]) continue;
+            for (const Index x : curves_[w]) consider(way + net_.length(w, x), x);
+        }
+    }
+
+    const Net& net_;
+    std::vector<std::vector<Index>> curves_;      // the other ends of the feature edges at each vertex
+    std::vector<std::array<bool, 3>> at_curve_;   // which sides of each triangle are feature edges
+    std::vector<Index> alive_;                    // the triangles in the tree
+    modeler::detail::BoxTree boxes_;
+    std::vector<Index> nearby_;
+    std::vector<double> ways_;
+    std::vector<Index> reached_;
+};
 
 double wanted_size(const Session& session, Index v) {
     double size = std::numeric_limits<double>::infinity();
@@ -169,12 +234,13 @@ void limit_growth(Net& net) {
 
 void set_sizes(Session& session) {
     Net& net = session.net;
+    GapFinder gaps(net);
     for (Index v = 0; v < net.n_vertices(); ++v) {
         if (net.triangles_at(v).empty()) continue;
         double size = frozen_size(net, v);
         if (size == 0) {
             const double wanted = wanted_size(session, v);
-            size = std::max(session.options.smallest_gap * wanted, size_in_gaps(net, v, wanted));
+            size = gaps.size_at(v, wanted, session.options.smallest_gap * wanted);
         }
         net.set_size(v, size);
     }
