@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -16,48 +17,50 @@ using volmesh::CellHandle;
 using volmesh::TetMesh;
 
 constexpr std::size_t n_measures = measure_infos.size();
-constexpr std::size_t n_worst = 10;
 /// Sums are taken over chunks of this many cells and then over the chunks in order, whatever thread did
 /// which.
 constexpr std::uint32_t chunk_size = 4096;
-
-using Values = std::array<double, n_measures>;
 
 /// A question that the paper's tables answer in per cent.
 struct Condition {
     const char* name;
     bool needs_size;
-    bool (*holds)(const Values&);
+    bool (*holds)(const CellMeasures&);
 };
 
-double value_of(const Values& v, Measure m) {
-    return v[static_cast<std::size_t>(m)];
-}
-
 constexpr std::array<Condition, 4> conditions{{
-    {"r/Lmax<0.4", false, [](const Values& v) { return value_of(v, Measure::sigma) < 0.4; }},
-    {"r/Lmax<0.2", false, [](const Values& v) { return value_of(v, Measure::sigma) < 0.2; }},
-    {"Lmin/Lmax<0.3", false, [](const Values& v) { return value_of(v, Measure::tau) < 0.3; }},
+    {"r/Lmax<0.4", false, [](const CellMeasures& v) { return value_of(v, Measure::sigma) < 0.4; }},
+    {"r/Lmax<0.2", false, [](const CellMeasures& v) { return value_of(v, Measure::sigma) < 0.2; }},
+    {"Lmin/Lmax<0.3", false, [](const CellMeasures& v) { return value_of(v, Measure::tau) < 0.3; }},
     // The paper's text has the interval closed; and its refinement stops at 3/2 exactly.
     {"2/3<L/Lbar<3/2", true,
-     [](const Values& v) {
+     [](const CellMeasures& v) {
          return value_of(v, Measure::phi) >= 2.0 / 3 && value_of(v, Measure::phi) <= 1.5;
      }},
 }};
 
+/// A cell and the number that ranks it, least first.
 struct Candidate {
-    double sigma;
+    double rank;
     std::uint32_t cell;
     auto operator<=>(const Candidate&) const = default;
 };
 
+/// What is looked for, beside the statistics.
+struct Question {
+    const WantedSize* size;
+    std::span<const double> errors;
+    double mean_error;
+    std::size_t n_worst;
+};
+
 /// Figures of one chunk.
 struct Partial {
-    std::size_t cells = 0, inverted = 0;
-    Values min, sum, max;
+    std::size_t cells = 0, inverted = 0, badly_shaped = 0, critical = 0;
+    CellMeasures min, sum, max;
     std::array<std::vector<std::size_t>, n_measures> histograms;
     std::array<std::size_t, conditions.size()> holding{};
-    std::vector<Candidate> worst;
+    std::vector<Candidate> worst, worst_critical;
 
     Partial() {
         min.fill(std::numeric_limits<double>::infinity());
@@ -67,62 +70,49 @@ struct Partial {
     }
 };
 
-Point centroid(const std::array<Point, 4>& p) {
-    return (p[0] + p[1] + p[2] + p[3]) / 4;
-}
-
-double wanted_size(const WantedSize& size, const Point& p, std::uint32_t cell) {
-    const double wanted = size(p);
-    if (!(wanted > 0) || !std::isfinite(wanted))
-        throw InputError(fmt::format("the wanted size is {} at ({}, {}, {}), in cell {}: it must be positive",
-                                     wanted, p.x(), p.y(), p.z(), cell));
-    return wanted;
-}
-
-Values measure(const TetGeometry& t, double phi_value) {
-    return {beta(t),         sigma(t),        omega(t),           tau(t),
-            kappa(t),        alpha(t),        gamma(t),           phi_value,
-            dihedral_min(t), dihedral_max(t), solid_angle_min(t), solid_angle_max(t),
-            aspect(t),       condition(t),    mean_ratio(t),      scaled_jacobian(t)};
-}
-
-std::uint32_t bin(const MeasureInfo& info, double value) {
-    const double place = (value - info.low) / (info.high - info.low) * info.bins;
-    return static_cast<std::uint32_t>(std::clamp(place, 0.0, info.bins - 1.0));
-}
-
-void keep_worst(std::vector<Candidate>& worst) {
+void keep_worst(std::vector<Candidate>& worst, std::size_t n) {
     std::sort(worst.begin(), worst.end());
-    if (worst.size() > n_worst) worst.resize(n_worst);
+    if (worst.size() > n) worst.resize(n);
 }
 
-Partial assess_chunk(const TetMesh& mesh, const WantedSize* size, std::uint32_t first, std::uint32_t last) {
+void add_cell(Partial& part, const CellMeasures& values, std::uint32_t cell, const Question& question) {
+    ++part.cells;
+    for (std::size_t m = 0; m < n_measures; ++m) {
+        const MeasureInfo& info = measure_infos[m];
+        part.min[m] = std::min(part.min[m], values[m]);
+        part.max[m] = std::max(part.max[m], values[m]);
+        part.sum[m] += values[m];
+        ++part.histograms[m][bin_of(info.low, info.high, info.bins, values[m])];
+    }
+    for (std::size_t k = 0; k < conditions.size(); ++k)
+        if (conditions[k].holds(values)) ++part.holding[k];
+    part.worst.push_back({value_of(values, Measure::sigma), cell});
+    if (!is_badly_shaped(values)) return;
+    ++part.badly_shaped;
+    if (question.errors.empty() || !(question.errors[cell] > question.mean_error)) return;
+    ++part.critical;
+    part.worst_critical.push_back({-question.errors[cell], cell});
+}
+
+Partial assess_chunk(const TetMesh& mesh, const Question& question, std::uint32_t first, std::uint32_t last) {
     Partial part;
     for (std::uint32_t i = first; i < last; ++i) {
         const CellHandle c(i);
         if (mesh.is_deleted(c)) continue;
-        const auto p = mesh.cell_points(c);
-        const TetGeometry t = tet_geometry(p[0], p[1], p[2], p[3]);
-        const Values values = measure(t, size ? phi(t, wanted_size(*size, centroid(p), i)) : 0);
-        ++part.cells;
+        const TetGeometry t = cell_geometry(mesh, c);
         if (!(t.volume > 0)) ++part.inverted;
-        for (std::size_t m = 0; m < n_measures; ++m) {
-            part.min[m] = std::min(part.min[m], values[m]);
-            part.max[m] = std::max(part.max[m], values[m]);
-            part.sum[m] += values[m];
-            ++part.histograms[m][bin(measure_infos[m], values[m])];
-        }
-        for (std::size_t k = 0; k < conditions.size(); ++k)
-            if (conditions[k].holds(values)) ++part.holding[k];
-        part.worst.push_back({value_of(values, Measure::sigma), i});
+        add_cell(part, measure_cell(mesh, c, t, question.size), i, question);
     }
-    keep_worst(part.worst);
+    keep_worst(part.worst, question.n_worst);
+    keep_worst(part.worst_critical, question.n_worst);
     return part;
 }
 
-void add(Partial& total, const Partial& part) {
+void add(Partial& total, const Partial& part, std::size_t n_worst) {
     total.cells += part.cells;
     total.inverted += part.inverted;
+    total.badly_shaped += part.badly_shaped;
+    total.critical += part.critical;
     for (std::size_t m = 0; m < n_measures; ++m) {
         total.min[m] = std::min(total.min[m], part.min[m]);
         total.max[m] = std::max(total.max[m], part.max[m]);
@@ -131,37 +121,91 @@ void add(Partial& total, const Partial& part) {
             total.histograms[m][k] += part.histograms[m][k];
     }
     for (std::size_t k = 0; k < conditions.size(); ++k) total.holding[k] += part.holding[k];
-    total.worst.insert(total.worst.end(), part.worst.begin(), part.worst.end());
-    keep_worst(total.worst);
+    for (auto list : {&Partial::worst, &Partial::worst_critical}) {
+        (total.*list).insert((total.*list).end(), (part.*list).begin(), (part.*list).end());
+        keep_worst(total.*list, n_worst);
+    }
 }
 
-Partial assess_cells(const TetMesh& mesh, const WantedSize* size) {
+Partial assess_cells(const TetMesh& mesh, const Question& question) {
     std::vector<Partial> parts((mesh.n_cells() + std::size_t{chunk_size} - 1) / chunk_size);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
         const auto first = static_cast<std::uint32_t>(k * chunk_size);
-        parts[k] = assess_chunk(mesh, size, first, first + std::min(chunk_size, mesh.n_cells() - first));
+        parts[k] = assess_chunk(mesh, question, first, first + std::min(chunk_size, mesh.n_cells() - first));
     });
     Partial total;
-    for (const Partial& part : parts) add(total, part);
+    for (const Partial& part : parts) add(total, part, question.n_worst);
     return total;
 }
 
-WorstCell describe(const TetMesh& mesh, CellHandle c) {
-    const auto p = mesh.cell_points(c);
-    const TetGeometry t = tet_geometry(p[0], p[1], p[2], p[3]);
-    WorstCell worst{c, sigma(t), dihedral_min(t), dihedral_max(t), centroid(p), {}};
+/// Over the cells that are there, in their order.
+double mean_of(const TetMesh& mesh, std::span<const double> errors) {
+    if (errors.empty()) return 0;
+    if (errors.size() != mesh.n_cells())
+        throw std::invalid_argument("assess: there must be as many errors as cells");
+    double sum = 0;
+    std::size_t n = 0;
+    for (std::uint32_t i = 0; i < mesh.n_cells(); ++i) {
+        if (mesh.is_deleted(CellHandle(i))) continue;
+        if (!(errors[i] >= 0) || !std::isfinite(errors[i]))
+            throw InputError(fmt::format(
+                "the estimated error is {} in cell {}: it must be finite and not negative", errors[i], i));
+        sum += errors[i];
+        ++n;
+    }
+    return n == 0 ? 0 : sum / static_cast<double>(n);
+}
+
+std::vector<std::string> sets_touched(const TetMesh& mesh, CellHandle c) {
+    std::vector<std::string> names;
+    for (int k = 0; k < 4; ++k)
+        for (volmesh::SetHandle set : mesh.sets_of(mesh.combination(TetMesh::halfface(c, k)))) {
+            const std::string& name = mesh.set_info(set).name;
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+        }
+    return names;
+}
+
+WorstCell describe(const TetMesh& mesh, CellHandle c, const Question& question) {
+    const CellMeasures values = measure_cell(mesh, c, cell_geometry(mesh, c));
+    WorstCell worst{.cell = c,
+                    .sigma = value_of(values, Measure::sigma),
+                    .dihedral_min = value_of(values, Measure::dihedral_min),
+                    .dihedral_max = value_of(values, Measure::dihedral_max),
+                    .error = question.errors.empty() ? 0 : question.errors[c.idx()],
+                    .centroid = centroid(mesh, c),
+                    .sets = {},
+                    .touches = sets_touched(mesh, c)};
     for (volmesh::SetHandle set : mesh.sets_of(mesh.combination(c)))
         worst.sets.push_back(mesh.set_info(set).name);
     return worst;
 }
 
+std::vector<WorstCell> describe(const TetMesh& mesh, const std::vector<Candidate>& candidates,
+                                const Question& question) {
+    std::vector<WorstCell> cells;
+    for (const Candidate& candidate : candidates)
+        cells.push_back(describe(mesh, CellHandle(candidate.cell), question));
+    return cells;
+}
+
 }  // namespace
 
-Report assess(const TetMesh& mesh, const WantedSize* size) {
-    Partial total = assess_cells(mesh, size);
+bool is_badly_shaped(const CellMeasures& values) {
+    const double sigma = value_of(values, Measure::sigma);
+    return sigma < 0.2 || (sigma < 0.4 && value_of(values, Measure::tau) < 0.3);
+}
+
+Report assess(const TetMesh& mesh, const WantedSize* size, const AssessOptions& options) {
+    const Question question{.size = size,
+                            .errors = options.errors,
+                            .mean_error = mean_of(mesh, options.errors),
+                            .n_worst = options.n_worst};
+    Partial total = assess_cells(mesh, question);
     Report report;
     report.cells = total.cells;
     report.inverted = total.inverted;
+    report.badly_shaped = total.badly_shaped;
     report.has_size = size != nullptr;
     const auto n = static_cast<double>(std::max<std::size_t>(total.cells, 1));
     for (std::size_t m = 0; m < n_measures; ++m) {
@@ -172,8 +216,11 @@ Report assess(const TetMesh& mesh, const WantedSize* size) {
     for (std::size_t k = 0; k < conditions.size(); ++k)
         if (size || !conditions[k].needs_size)
             report.criteria.push_back({conditions[k].name, 100 * static_cast<double>(total.holding[k]) / n});
-    for (const Candidate& candidate : total.worst)
-        report.worst.push_back(describe(mesh, CellHandle(candidate.cell)));
+    report.worst = describe(mesh, total.worst, question);
+    if (!options.errors.empty())
+        report.critical = Critical{.mean_error = question.mean_error,
+                                   .cells = total.critical,
+                                   .worst = describe(mesh, total.worst_critical, question)};
     return report;
 }
 

@@ -1,65 +1,17 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <functional>
+#include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "quality/measures.hh"
+#include "quality/cell_measures.hh"
 #include "volmesh/tet_mesh.hh"
 
 namespace maille::quality {
-
-enum class Measure : std::uint8_t {
-    beta,
-    sigma,
-    omega,
-    tau,
-    kappa,
-    alpha,
-    gamma,
-    phi,
-    dihedral_min,
-    dihedral_max,
-    solid_angle_min,
-    solid_angle_max,
-    aspect,
-    condition,
-    mean_ratio,
-    scaled_jacobian
-};
-
-/// How a measure is told: its name in tables and JSON, and the bins of its histogram, equal parts of [low,
-/// high]. Values beyond the ends are counted in the first and in the last bin.
-struct MeasureInfo {
-    Measure measure;
-    std::string_view name;
-    double low, high;
-    std::uint32_t bins;
-};
-
-inline constexpr std::array<MeasureInfo, 16> measure_infos{{
-    {Measure::beta, "beta", 0, 1, 20},
-    {Measure::sigma, "sigma", 0, 1, 20},
-    {Measure::omega, "omega", 0, 1.25, 25},
-    {Measure::tau, "tau", 0, 1, 20},
-    {Measure::kappa, "kappa", 0, 1, 20},
-    {Measure::alpha, "alpha", 0, 1, 20},
-    {Measure::gamma, "gamma", 0, 1, 20},
-    {Measure::phi, "phi", 0, 2, 20},
-    {Measure::dihedral_min, "dihedral_min", 0, 180, 36},
-    {Measure::dihedral_max, "dihedral_max", 0, 180, 36},
-    {Measure::solid_angle_min, "solid_angle_min", 0, 1, 20},
-    {Measure::solid_angle_max, "solid_angle_max", 0, 6.4, 32},
-    {Measure::aspect, "aspect", 0, 1, 20},
-    {Measure::condition, "condition", 0, 1, 20},
-    {Measure::mean_ratio, "mean_ratio", 0, 1, 20},
-    {Measure::scaled_jacobian, "scaled_jacobian", 0, 1, 20},
-}};
 
 /// Minimum, mean and maximum over the cells, equation (7) of the paper that measures.hh names. All 0 without
 /// cells.
@@ -75,41 +27,61 @@ struct Criterion {
     double percent = 0;
 };
 
-/// One of the worst cells: lowest sigma first.
+/// Whether that paper (section 5) calls the shape bad: sigma < 0.2, or sigma < 0.4 and tau < 0.3.
+bool is_badly_shaped(const CellMeasures& values);
+
+/// One of the worst cells.
 struct WorstCell {
     volmesh::CellHandle cell;
     double sigma = 0, dihedral_min = 0, dihedral_max = 0;
+    double error = 0;  ///< 0 where no errors were given
     Point centroid;
-    std::vector<std::string> sets;  ///< the cell sets that it is in
+    std::vector<std::string> sets;     ///< the cell sets that it is in
+    std::vector<std::string> touches;  ///< the face sets that its faces are in
+};
+
+/// Badly shaped cells whose estimated error is above the mean one: section 4 of that paper.
+struct Critical {
+    double mean_error = 0;
+    std::size_t cells = 0;
+    std::vector<WorstCell> worst;  ///< the largest error first
 };
 
 struct Report {
     std::size_t cells = 0;
-    std::size_t inverted = 0;  ///< cells with no positive volume
-    bool has_size = false;     ///< whether a wanted size was given: without one nothing is said about phi
+    std::size_t inverted = 0;      ///< cells with no positive volume
+    std::size_t badly_shaped = 0;  ///< by is_badly_shaped; none: the paper's "good shape quality"
+    bool has_size = false;         ///< whether a wanted size was given: without one nothing is said about phi
     std::array<Statistics, measure_infos.size()> measures;  ///< by Measure
     std::vector<Criterion> criteria;
-    std::vector<WorstCell> worst;  ///< at most ten
+    std::vector<WorstCell> worst;      ///< the lowest sigma first
+    std::optional<Critical> critical;  ///< where errors were given
 
     const Statistics& operator[](Measure m) const { return measures[static_cast<std::size_t>(m)]; }
 };
 
-/// Wanted edge length at a point.
-using WantedSize = std::function<double(const Point&)>;
+struct AssessOptions {
+    /// An estimated error of each cell, by cell index: not negative. Empty: none is known.
+    std::span<const double> errors{};
+    std::size_t n_worst = 10;  ///< how many of the worst and of the critical cells are listed
+};
 
 /// Measures all cells, in parallel; the report doesn't depend on the number of threads.
 ///
-/// `size` is asked at each cell's centroid and must be thread-safe. Throws InputError, naming the cell and
-/// the point, where it isn't positive and finite.
-Report assess(const volmesh::TetMesh& mesh, const WantedSize* size = nullptr);
+/// `size` is asked at each cell's centroid and must be thread-safe. Throws InputError, naming the cell, where
+/// it isn't positive and finite, or an error is negative or not finite. Precondition: as many errors as
+/// cells, deleted ones included, or none.
+Report assess(const volmesh::TetMesh& mesh, const WantedSize* size = nullptr,
+              const AssessOptions& options = {});
 
-/// As a table with histograms drawn in text, the criteria and the worst cells. Percentages are cut after two
-/// digits, as the paper does: 0.00 may be a few cells, 100.00 is all of them.
+/// As a table with histograms drawn in text, the criteria, the worst and the critical cells. Percentages are
+/// cut after two digits, as the paper does: 0.00 may be a few cells, 100.00 is all of them.
 std::string to_text(const Report& report);
 
-/// `cells`, `inverted`, `measures` {name: {min, mean, max, histogram, range}}, `criteria` {name: percent} and
-/// `worst`, a list of {cell, sigma, dihedral_min, dihedral_max, centroid, sets}. `phi` is null where no
-/// wanted size was given.
+/// `cells`, `inverted`, `measures` {name: {min, mean, max, histogram, range}}, `criteria` {name: percent},
+/// `bad_shape` {cells, percent}, `critical` {cells, percent, mean_error, worst} and `worst`, a list of {cell,
+/// sigma, dihedral_min, dihedral_max, centroid, sets, touches}, and error where errors were given. `phi` is
+/// null where no wanted size was given, `critical` where no errors were.
 nlohmann::ordered_json to_json(const Report& report);
 
 }  // namespace maille::quality
