@@ -9,8 +9,10 @@
 #include "quality/report.hh"
 #include "tools/maille/commands.hh"
 #include "tools/maille/common_options.hh"
+#include "tools/maille/mesh_field.hh"
 #include "tools/maille/model_options.hh"
 #include "tools/maille/output_options.hh"
+#include "tools/maille/page_option.hh"
 #include "tools/maille/size_argument.hh"
 #include "volmesh/io/mesh_io.hh"
 
@@ -21,6 +23,9 @@ struct QualityOptions {
     CommonOptions common;
     std::string mesh;
     std::optional<std::string> size;
+    std::optional<std::string> error;
+    std::size_t n_worst = 10;
+    PageOption page;
     ModelOptions model;
     OutputOptions improved;
 };
@@ -36,12 +41,20 @@ void improve_and_write(volmesh::TetMesh& mesh, const quality::WantedSize* size,
 
 void run(const QualityOptions& options) {
     std::optional<quality::WantedSize> size;
+    std::vector<double> errors;
     const bool improves = !options.improved.path.empty();
     if (improves) check_output(options.improved);
+    check_page(options.page);
     volmesh::TetMesh mesh = volmesh::read_mesh(options.mesh);
     if (options.size) size = SizeArgument(*options.size).field({.mesh = &mesh});
-    if (improves) improve_and_write(mesh, size ? &*size : nullptr, options);
-    const quality::Report report = quality::assess(mesh, size ? &*size : nullptr);
+    const quality::WantedSize* wanted = size ? &*size : nullptr;
+    if (improves) improve_and_write(mesh, wanted, options);
+    if (options.error) errors = cell_field(*options.error, mesh);
+    const quality::Report report =
+        quality::assess(mesh, wanted, {.errors = errors, .n_worst = options.n_worst});
+    if (!options.page.path.empty())
+        write_page(options.page, improves ? options.improved.path : options.mesh, mesh, report, wanted,
+                   errors);
     fmt::print("{}",
                options.common.json ? quality::to_json(report).dump(2) + "\n" : quality::to_text(report));
 }
@@ -58,11 +71,22 @@ void add_quality_command(CLI::App& program) {
             "--size", options->size,
             std::string("Wanted size, for the size measure phi, and kept to by --improve: ") + size_help)
         ->type_name("EXPR");
+    command.add_option("--worst", options->n_worst, "How many of the worst cells to list")
+        ->capture_default_str()
+        ->type_name("N");
+    add_page_options(command, options->page);
     CLI::Option* improve = command
                                .add_option("--improve", options->improved.path,
                                            "Better the worst cells by smoothing, flips, collapse and "
                                            "split, write this mesh and report on it")
                                ->type_name("OUT");
+    command
+        .add_option(
+            "--error", options->error,
+            "An estimated error, to tell critical cells, those of bad shape and with an error above the "
+            "mean: a cell field of MESH, or FILE:FIELD of a mesh file with the same cells")
+        ->type_name("FIELD")
+        ->excludes(improve);
     add_model_options(command, options->model, "Let vertices on the surfaces of this model move along them")
         ->needs(improve);
     add_json_option(command, options->common, "the report");

@@ -1,29 +1,19 @@
 #include "tools/maille/size_argument.hh"
 
-#include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include <CLI/CLI.hpp>
 
+#include "tools/maille/mesh_field.hh"
 #include "volmesh/io/mesh_io.hh"
 
 namespace maille::tools {
 namespace {
 
-/// Expressions have colons too (`x > 0 ? 0.1 : 0.2`), but none after the name of a file.
-bool names_mesh_file(const std::filesystem::path& path) {
-    constexpr const char* extensions[] = {".vtu", ".msh", ".mesh", ".node", ".ele"};
-    return std::ranges::find(extensions, path.extension()) != std::end(extensions) ||
-           std::filesystem::is_regular_file(path);
-}
-
 std::variant<refine::SizeField, std::string> field_or_expression(const std::string& text,
                                                                  refine::CellValues cell_values) {
-    const std::size_t colon = text.rfind(':');
-    if (colon != std::string::npos && names_mesh_file(text.substr(0, colon)))
-        return refine::mesh_size(volmesh::read_mesh(text.substr(0, colon)), text.substr(colon + 1),
-                                 cell_values);
+    if (const auto field = parse_mesh_field(text))
+        return refine::mesh_size(volmesh::read_mesh(field->path), field->name, cell_values);
     refine::check_size(text);
     return text;
 }

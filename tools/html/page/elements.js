@@ -1,0 +1,87 @@
+// The element that is looked at, and the lists of the worst and of the critical ones.
+
+import {count, element, figure, withUnit} from './format.js';
+
+const N_LISTED = 100;
+
+function rows(cells) {
+  return cells.map((pair) => element('tr', {}, ...pair.flatMap(([name, value]) =>
+    [element('th', {}, name), element('td', {class: 'number'}, value)])));
+}
+
+function pairs(list) {
+  return list.reduce((all, entry, i) => (i % 2 ? all[all.length - 1].push(entry) : all.push([entry]), all), []);
+}
+
+/** The cells that the page carries, worst first. */
+function worstCells(mesh, quantity) {
+  const badness = Float64Array.from({length: mesh.n}, (_, c) => -quantity.goodness(quantity.value(c)));
+  const order = Uint32Array.from({length: mesh.n}, (_, c) => c);
+  return [...order.sort((a, b) => badness[b] - badness[a] || a - b).subarray(0, N_LISTED)];
+}
+
+export function makeElementPanel(parent, mesh, state, actions) {
+  const update = () => {
+    const c = state.cell;
+    parent.replaceChildren(element('h2', {}, 'Element'));
+    if (c === null) {
+      parent.append(element('p', {class: 'empty'}, 'Click on an element of the mesh or of a list below.'));
+      return;
+    }
+    const sets = mesh.setsOfCell(c).map((i) => mesh.sets[i].name);
+    const touched = mesh.setsTouched(c);
+    const facts = [['number', count(mesh.numbers[c])], ['at', `(${mesh.place(c).map(figure).join(', ')})`],
+                   ['in', sets.join(', ') || 'no set'], ['touches', touched.join(', ') || 'no face set']];
+    const values = mesh.quantities.map((q) => [q.name.replace('dihedral_', '\u2220 ').replace('solid_angle_', '\u03a9 ').replace('_', ' '), q.unit === 'degrees' ? withUnit(q.value(c), q.unit) : figure(q.value(c))]);
+    parent.append(
+      element('table', {class: 'facts'}, ...facts.map(([name, value]) => element(
+        'tr', {}, element('th', {}, element('small', {}, name)), element('td', {'data-fact': name}, value)))),
+      element('table', {class: 'values'}, ...rows(pairs(values))),
+      element('div', {class: 'buttons'},
+              element('button', {type: 'button', onclick: () => actions.flyTo(c)}, 'Go there'),
+              element('button', {type: 'button', onclick: () => actions.cutAt(c)}, 'Cut here'),
+              element('button', {type: 'button', onclick: () => state.set({cell: null})}, 'Clear')));
+  };
+  state.onChange((changes) => 'cell' in changes && update());
+  update();
+}
+
+function listOf(mesh, state, cells, columns, actions) {
+  const body = element('tbody', {}, ...cells.map((c) => {
+    const row = element('tr', {tabindex: 0, 'data-cell': mesh.numbers[c]}, ...columns.map(([, value]) =>
+      element('td', {class: 'number'}, value(c))));
+    const look = () => {
+      state.set({cell: c});
+      actions.flyTo(c);
+    };
+    row.addEventListener('click', look);
+    row.addEventListener('keydown', (event) => event.key === 'Enter' && look());
+    return row;
+  }));
+  const head = element('thead', {}, element('tr', {}, ...columns.map(([name]) => element('th', {class: 'number'}, name))));
+  return element('div', {class: 'list'}, element('table', {}, head, body));
+}
+
+export function makeLists(parent, mesh, report, state, actions) {
+  const byName = (name) => mesh.quantities.find((q) => q.name === name);
+  const column = (quantity) => [quantity.name.replace('dihedral_', '\u2220 '), (c) => withUnit(quantity.value(c), quantity.unit)];
+  const number = ['element', (c) => count(mesh.numbers[c])];
+  const angles = [column(byName('dihedral_min')), column(byName('dihedral_max'))];
+  const byNumber = new Map(Array.from(mesh.numbers, (n, c) => [n, c]));
+  const critical = report.critical && report.critical.worst.map((entry) => byNumber.get(entry.cell)).filter((c) => c !== undefined);
+  const update = () => {
+    const quantity = mesh.quantities[typeof state.color === 'number' ? state.color : 1];
+    const columns = [number, column(quantity), ...angles.filter(([name]) => name !== column(quantity)[0])];
+    parent.replaceChildren(element('h2', {}, `Worst by ${quantity.name}`),
+                           listOf(mesh, state, worstCells(mesh, quantity), columns, actions));
+    if (critical)
+      parent.append(element('h2', {style: 'margin-top:14px'}, 'Critical: bad shape and an error above the mean'),
+                    critical.length ? listOf(mesh, state, critical, [number, column(byName('error')), column(byName('sigma'))], actions)
+                                    : element('p', {class: 'empty'}, 'None.'));
+    mark();
+  };
+  const mark = () => parent.querySelectorAll('tr[data-cell]').forEach((row) =>
+    row.classList.toggle('current', state.cell !== null && Number(row.dataset.cell) === mesh.numbers[state.cell]));
+  state.onChange((changes) => ('color' in changes ? update() : mark()));
+  update();
+}

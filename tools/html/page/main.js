@@ -1,0 +1,163 @@
+/*! three.js, copyright 2010-2019 three.js authors, under the MIT licence (threejs.org/license) */
+// The page of `maille quality --html`: reads what the program put into it and sets everything up.
+
+import {readArrays} from './data.js';
+import {makeElementPanel, makeLists} from './elements.js';
+import {count, element, figure, percent, withUnit} from './format.js';
+import {makeHistograms} from './histograms.js';
+import {Mesh} from './mesh.js';
+import style from './page.css';
+import skeleton from './page.html';
+import {makeSets} from './sets.js';
+import {cutAt, drawAxes, listenToKeys, makeLegend, makeToolbar} from './stage.js';
+import {State} from './state.js';
+import {View} from './view.js';
+
+const byId = (id) => document.getElementById(id);
+
+function tell(text) {
+  byId('message').textContent = text ?? '';
+}
+
+function showFacts(figures) {
+  const {report} = figures;
+  byId('title').textContent = figures.title;
+  const fact = (value, name, isBad) => element('li', {class: isBad ? 'bad' : null}, element('b', {}, value), ` ${name}`);
+  const box = figures.origin.map((low, k) => `${figure(low)} \u2026 ${figure(low + figures.step * figures.extent[k])}`);
+  byId('facts').append(
+    fact(count(report.cells), 'elements'), fact(count(figures.vertices), 'vertices'),
+    fact(count(report.inverted), 'flat or inverted', report.inverted > 0),
+    fact(`${withUnit(report.measures.dihedral_min.min, 'degrees')} \u2013 ${withUnit(report.measures.dihedral_max.max, 'degrees')}`,
+         'dihedral angles'),
+    fact(figure(figures.volume), 'volume'), fact(figure(figures.area), 'area'),
+    element('li', {title: 'In the units of the mesh'}, element('small', {}, `x ${box[0]}, y ${box[1]}, z ${box[2]}`)));
+}
+
+function showBands({report}) {
+  const cells = ({cells, percent: part}) => `${count(cells)}, ${percent(part)}`;
+  const rows = Object.entries(report.criteria).map(([name, value]) => [name.replaceAll('<', ' < '), percent(value), false]);
+  rows.push(['bad shape', cells(report.bad_shape), report.bad_shape.cells > 0]);
+  if (report.critical) rows.push(['critical', cells(report.critical), report.critical.cells > 0]);
+  byId('bands').append(...rows.map(([name, value, isBad]) => element(
+    'tr', {}, element('th', {}, name), element('td', {class: isBad ? 'number bad' : 'number'}, value))));
+}
+
+function tellWhatIsLeftOut({report, selection, sets}) {
+  const unsent = sets.filter((set) => !set.sent).map((set) => set.name);
+  const missing = unsent.length ? ` Sets too large to send: ${unsent.join(', ')}.` : '';
+  byId('left-out').textContent = (selection.whole ? 'This page carries every element.'
+    : `This page carries ${count(selection.cells)} of ${count(report.cells)} elements: all that are seen from outside or ` +
+      `where sets meet, those seen at ${selection.cuts[0].length} cuts along each axis, and the ${count(selection.worst)} worst by each measure. ` +
+      'All figures are of the whole mesh.') + missing;
+}
+
+function chooseTheme(view) {
+  const root = document.documentElement;
+  const apply = (theme) => {
+    root.dataset.theme = theme;
+    view?.setTheme(getComputedStyle(root));
+  };
+  const system = matchMedia('(prefers-color-scheme: dark)');
+  apply(system.matches ? 'dark' : 'light');
+  system.addEventListener('change', () => apply(system.matches ? 'dark' : 'light'));
+  byId('theme').addEventListener('click', () => apply(root.dataset.theme === 'dark' ? 'light' : 'dark'));
+}
+
+function keepViewUpToDate(mesh, state, view) {
+  const status = () => {
+    const bar = state.bar && mesh.quantities[state.bar.quantity];
+    const n = bar && bar.histogram[state.bar.bin];
+    const carried = bar && mesh.mask((c) => bar.bin(c) === state.bar.bin).reduce((sum, x) => sum + x, 0);
+    const part = n === carried ? '' : `, ${count(carried)} of them in this page`;
+    byId('status').textContent = `${count(view.shown.length)} faces drawn` + (bar ? `; ${count(n)} elements chosen${part}` : '');
+  };
+  const update = (changes) => {
+    if ('bar' in changes || 'cut' in changes || 'hidden' in changes || 'only' in changes) {
+      view.ghost.visible = state.isGhostShown();
+      view.showMarks(state);
+      view.show(state.facesShown(), state.faceColor());
+    } else if ('color' in changes) {
+      view.paint(state.faceColor());
+    }
+    if ('edges' in changes) view.setEdges(state.edges);
+    if ('cell' in changes) view.setFocus(state.cell);
+    status();
+  };
+  state.onChange(update);
+  update({bar: null, cell: null});
+}
+
+function listenToPointer(mesh, state, view) {
+  let down = null;
+  let isDue = false;
+  const canvas = byId('canvas');
+  canvas.addEventListener('pointerdown', (event) => { down = [event.clientX, event.clientY]; });
+  canvas.addEventListener('click', (event) => {
+    if (down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+    state.set({cell: view.cellAt(event.clientX, event.clientY)});
+  });
+  canvas.addEventListener('pointermove', (event) => {
+    if (isDue || event.buttons) return;
+    isDue = true;
+    requestAnimationFrame(() => {
+      isDue = false;
+      const cell = view.cellAt(event.clientX, event.clientY);
+      const quantity = mesh.quantities[typeof state.color === 'number' ? state.color : 1];
+      const sets = cell === null ? [] : mesh.setsOfCell(cell).map((i) => mesh.sets[i].name);
+      tell(cell === null ? null : [`element ${count(mesh.numbers[cell])}`, `${quantity.name} ${withUnit(quantity.value(cell), quantity.unit)}`,
+                                   `(${mesh.place(cell).map(figure).join(', ')})`, ...sets].join(' \u00b7 '));
+    });
+  });
+  canvas.addEventListener('pointerleave', () => tell(null));
+}
+
+/** The ring stays on the cell that is looked at. */
+function placeRing(state, view) {
+  const ring = byId('ring');
+  ring.hidden = state.cell === null;
+  if (state.cell === null) return;
+  const [x, y] = view.screenPlace(state.cell);
+  ring.style.left = `${x}px`;
+  ring.style.top = `${y}px`;
+}
+
+async function start() {
+  const figures = JSON.parse(byId('figures').textContent);
+  const base64 = byId('arrays').textContent;
+  document.head.append(element('style', {}, style));
+  document.body.insertAdjacentHTML('afterbegin', skeleton);
+  showFacts(figures);
+  showBands(figures);
+  tellWhatIsLeftOut(figures);
+  if (typeof DecompressionStream === 'undefined')
+    throw new Error('this browser is too old to unpack the mesh: it takes Firefox 113, Chrome 80, Safari 16.4 or later');
+  const mesh = new Mesh(figures, await readArrays(base64, figures.arrays));
+  const state = new State(mesh, figures.selection.whole, figures.selection.cuts);
+  makeHistograms(byId('histograms'), byId('scale'), mesh, state, tell);
+  let view = null;
+  try {
+    view = new View(byId('canvas'), mesh);
+  } catch (error) {
+    tell(`The mesh cannot be drawn: ${error.message}.`);
+  }
+  chooseTheme(view);
+  makeSets(byId('sets'), mesh, state);
+  const actions = {flyTo: (c) => view?.flyTo(c), cutAt: (c) => view && cutAt(mesh, state, view, c)};
+  if (view) {
+    keepViewUpToDate(mesh, state, view);
+    makeToolbar(mesh, state, view);
+    makeLegend(mesh, state);
+    listenToPointer(mesh, state, view);
+    listenToKeys(mesh, state, view);
+    view.onDraw(() => drawAxes(view));
+    view.onDraw(() => placeRing(state, view));
+  }
+  makeElementPanel(byId('element'), mesh, state, actions);
+  makeLists(byId('lists'), mesh, figures.report, state, actions);
+  document.documentElement.dataset.ready = 'yes';
+}
+
+start().catch((error) => {
+  tell(`This page cannot be shown: ${error.message}.`);
+  throw error;
+});
