@@ -24,13 +24,13 @@ def why_missing():
 
 
 class Browser:
-    """One page, of 1400 by 900 pixels, drawn by the processor. Use it in a `with`."""
+    """One page, of 1200 by 800 pixels, drawn by the processor. Use it in a `with`."""
 
     def __init__(self):
         self.profile = tempfile.TemporaryDirectory(prefix="maille-browser-", ignore_cleanup_errors=True)
         self.process = subprocess.Popen(
             [PROGRAM, "--headless", "--no-sandbox", "--remote-debugging-port=0", "--use-angle=swiftshader",
-             "--enable-unsafe-swiftshader", f"--user-data-dir={self.profile.name}", "--window-size=1400,900",
+             "--enable-unsafe-swiftshader", f"--user-data-dir={self.profile.name}", "--window-size=1200,800",
              "--remote-allow-origins=*", "about:blank"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.count = 0
         self.events = []

@@ -10,7 +10,7 @@ namespace {
 
 // What page/ was bundled into: the script makes all the page from the figures and arrays.
 constexpr char script[] =
-#include "page.js.inc"
+#include <page.js.inc>
     ;
 
 std::string escaped(std::string_view text) {
