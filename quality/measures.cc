@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -34,6 +35,16 @@ double dihedral(const TetGeometry& t, int edge) {
     return degrees(std::atan2(6 * t.volume * t.lengths[edge], -t.normal_products[edge]));
 }
 
+/// The edge with the least or the greatest angle, found by cotangents. Precondition: a positive volume.
+template <class Better>
+int edge_of_extreme_angle(const TetGeometry& t, const Better& is_better) {
+    const auto cotangent = [&](int edge) { return -t.normal_products[edge] / t.lengths[edge]; };
+    int best = 0;
+    for (int edge = 1; edge < 6; ++edge)
+        if (is_better(cotangent(edge), cotangent(best))) best = edge;
+    return best;
+}
+
 /// The edges at each vertex, each before the edge opposite it in the face that it spans with the next: at a
 /// vertex with edges x, y and z, the pairs (x, y), (y, z), (z, x) span the faces with the third sides listed.
 struct Corner {
@@ -50,16 +61,27 @@ double product_of_edges(const TetGeometry& t, const Corner& corner) {
     return t.lengths[x] * t.lengths[y] * t.lengths[z];
 }
 
-/// tan(angle / 2) = 6 V / (x y z + (x.y) z + (y.z) x + (z.x) y), x, y and z being the edges from the corner.
-double solid_angle(const TetGeometry& t, const Corner& corner) {
-    double below = product_of_edges(t, corner);
+/// What 6 V is over tan(angle / 2): x y z + (x.y) z + (y.z) x + (z.x) y, x, y and z being the edges from the
+/// corner.
+double solid_angle_divisor(const TetGeometry& t, const Corner& corner) {
+    double divisor = product_of_edges(t, corner);
     for (int i = 0; i < 3; ++i) {
         const double x = t.lengths[corner.edges[i]];
         const double y = t.lengths[corner.edges[(i + 1) % 3]];
         const double third = t.lengths[corner.third_sides[i]];
-        below += (x * x + y * y - third * third) / 2 * t.lengths[corner.edges[(i + 2) % 3]];
+        divisor += (x * x + y * y - third * third) / 2 * t.lengths[corner.edges[(i + 2) % 3]];
     }
-    return 2 * std::atan2(6 * t.volume, below);
+    return divisor;
+}
+
+std::array<double, 4> solid_angle_divisors(const TetGeometry& t) {
+    std::array<double, 4> divisors;
+    for (int i = 0; i < 4; ++i) divisors[i] = solid_angle_divisor(t, corners[i]);
+    return divisors;
+}
+
+double solid_angle(const TetGeometry& t, double divisor) {
+    return 2 * std::atan2(6 * t.volume, divisor);
 }
 
 }  // namespace
@@ -163,30 +185,22 @@ double gamma(const TetGeometry& t) {
 
 double dihedral_min(const TetGeometry& t) {
     if (!(t.volume > 0)) return 0;
-    double angle = 180;
-    for (int edge = 0; edge < 6; ++edge) angle = std::min(angle, dihedral(t, edge));
-    return angle;
+    return dihedral(t, edge_of_extreme_angle(t, std::greater{}));
 }
 
 double dihedral_max(const TetGeometry& t) {
     if (!(t.volume > 0)) return 180;
-    double angle = 0;
-    for (int edge = 0; edge < 6; ++edge) angle = std::max(angle, dihedral(t, edge));
-    return angle;
+    return dihedral(t, edge_of_extreme_angle(t, std::less{}));
 }
 
 double solid_angle_min(const TetGeometry& t) {
     if (!(t.volume > 0)) return 0;
-    double angle = 2 * std::numbers::pi;
-    for (const Corner& corner : corners) angle = std::min(angle, solid_angle(t, corner));
-    return angle;
+    return solid_angle(t, std::ranges::max(solid_angle_divisors(t)));
 }
 
 double solid_angle_max(const TetGeometry& t) {
     if (!(t.volume > 0)) return 2 * std::numbers::pi;
-    double angle = 0;
-    for (const Corner& corner : corners) angle = std::max(angle, solid_angle(t, corner));
-    return angle;
+    return solid_angle(t, std::ranges::min(solid_angle_divisors(t)));
 }
 
 double aspect(const TetGeometry& t) {

@@ -71,8 +71,9 @@ struct Partial {
 };
 
 void keep_worst(std::vector<Candidate>& worst, std::size_t n) {
-    std::sort(worst.begin(), worst.end());
-    if (worst.size() > n) worst.resize(n);
+    n = std::min(n, worst.size());
+    std::ranges::partial_sort(worst, worst.begin() + static_cast<std::ptrdiff_t>(n));
+    worst.resize(n);
 }
 
 void add_cell(Partial& part, const CellMeasures& values, std::uint32_t cell, const Question& question) {
