@@ -16,8 +16,10 @@ struct ImproveOptions {
     double good_enough = 0.45;
     /// Whether connectivity may change: by flips, removal of edges and faces, edge collapse and edge split.
     bool may_change_cells = true;
-    /// Sweeps over all vertices that may move, to raise the mean of beta.
-    int mean_sweeps = 1;
+    /// Most sweeps to raise the mean of beta: each moves the vertices inside the mesh; before each but the
+    /// first one, edges are removed. They end when the mean is `good_mean`, or gains little.
+    int mean_sweeps = 8;
+    double good_mean = 0.8;
     /// Wanted edge lengths; a move makes no cell longer than `ratio` times the size at its centroid, unless
     /// it takes the place of one that is as far beyond.
     const WantedSize* size = nullptr;
@@ -32,12 +34,13 @@ struct ImproveResult {
     std::size_t edits() const { return moves + edge_removals + face_removals + collapses + splits; }
 };
 
-/// Betters the worst cells of a mesh: moves vertices, removes edges and faces, collapses and splits edges,
-/// the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R. Shewchuk, "Aggressive
+/// Betters a mesh: raises the mean of beta by sweeps over all of it, if that is low (mean_moves.hh,
+/// mean_flips.hh); then betters the worst cells: moves vertices, removes edges and faces, collapses and splits
+/// edges, the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R. Shewchuk, "Aggressive
 /// tetrahedral mesh improvement", 2007.
 ///
-/// No move lowers the least objective of the cells that it changes, so the mesh's least never goes down; an
-/// inverted cell may come right but none arises. Sets and properties pass on by their rules, the volume of
+/// No move lowers the least objective of the cells that it changes, unless it stays above `good_enough`; so
+/// the mesh's least never goes down, and an inverted cell may come right but none arises. Sets and properties pass on by their rules, the volume of
 /// each cell set and the area of each flat face set stay. Vertices keep to their geometric support: the
 /// surfaces that their faces' sets name, where `projector` knows these; else the planes of their faces, where
 /// these are flat; else they stay. So do vertices in a vertex set, on an edge of an edge set, and where two

@@ -2,47 +2,26 @@
 
 #include <algorithm>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "quality/smooth.hh"
 
 namespace maille::quality {
 
 using volmesh::TetMesh;
 
-namespace {
-
-constexpr Shape perfect{1, 1};
-
-}  // namespace
-
-Improver::Improver(TetMesh& mesh, const ImproveOptions& options, const volmesh::Projector* projector)
+Improver::Improver(TetMesh& mesh, std::vector<Shape> shapes, const ImproveOptions& options,
+                   const volmesh::Projector* projector, ImproveResult& result)
     : mesh_(mesh),
       options_(options),
+      limit_(options.size, options.ratio),
       projector_(projector),
       surfaces_of_(mesh, projector),
       freedoms_(mesh, projector),
       freedom_at_(mesh.n_vertices(), 0),
       known_freedoms_(2),
-      shapes_(mesh.n_cells(), perfect),
+      shapes_(std::move(shapes)),
       tried_(mesh.n_cells(), 0),
-      changed_(mesh.n_vertices(), 1) {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mesh.n_cells(), 4096), [&](const auto& range) {
-        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-            if (mesh.is_deleted(CellHandle(i))) continue;
-            const auto p = mesh.cell_points(CellHandle(i));
-            shapes_[i] = shape(p[0], p[1], p[2], p[3]);
-        }
-    });
-    result_.worst_before = worst();
-}
-
-double Improver::worst() const {
-    double least = 1;
-    for (const Shape& shape : shapes_) least = std::min(least, shape.objective);
-    return least;
-}
+      changed_(mesh.n_vertices(), 1),
+      result_(result) {}
 
 std::size_t Improver::pass(bool all_moves) {
     std::vector<std::uint32_t> bad;
@@ -102,13 +81,13 @@ Bases Improver::bases_at(VertexHandle v, const CellList& cells) const {
 
 void Improver::settle(const CellList& changed, std::uint32_t first_new) {
     ++now_;
-    shapes_.resize(mesh_.n_cells(), perfect);
+    shapes_.resize(mesh_.n_cells(), perfect_shape);
     tried_.resize(mesh_.n_cells(), 0);
     changed_.resize(mesh_.n_vertices(), 0);
     freedom_at_.resize(mesh_.n_vertices(), 0);
     const auto measure = [&](CellHandle c) {
         const auto p = mesh_.cell_points(c);
-        note_shape(c, mesh_.is_deleted(c) ? perfect : shape(p[0], p[1], p[2], p[3]));
+        note_shape(c, mesh_.is_deleted(c) ? perfect_shape : shape(p[0], p[1], p[2], p[3]));
     };
     for (CellHandle c : changed) measure(c);
     for (std::uint32_t i = first_new; i < mesh_.n_cells(); ++i) measure(CellHandle(i));
@@ -119,19 +98,10 @@ void Improver::note_shape(CellHandle c, const Shape& shape) {
     for (VertexHandle v : mesh_.cell_vertices(c)) changed_[v.idx()] = now_;
 }
 
-double Improver::excess(const std::array<Point, 4>& cell) const {
-    if (!options_.size) return 1;
-    const Point centroid = (cell[0] + cell[1] + cell[2] + cell[3]) / 4;
-    double longest = 0;
-    for (const auto& [i, j] : volmesh::tet::edge_vertices)
-        longest = std::max(longest, (cell[i] - cell[j]).squaredNorm());
-    return std::max(1.0, std::sqrt(longest) / (options_.ratio * (*options_.size)(centroid)));
-}
-
 double Improver::excess(const CellList& cells) const {
     double worst = 1;
-    if (!options_.size) return worst;
-    for (CellHandle c : cells) worst = std::max(worst, excess(mesh_.cell_points(c)));
+    if (!limit_.exists()) return worst;
+    for (CellHandle c : cells) worst = std::max(worst, limit_.excess(mesh_.cell_points(c)));
     return worst;
 }
 

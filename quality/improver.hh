@@ -7,6 +7,7 @@
 
 #include "quality/improve.hh"
 #include "quality/objective.hh"
+#include "quality/size_limit.hh"
 #include "quality/smooth.hh"
 #include "quality/support.hh"
 #include "quality/surface_error.hh"
@@ -18,18 +19,15 @@ namespace maille::quality {
 /// the cells that it changes goes up.
 class Improver {
   public:
-    Improver(volmesh::TetMesh& mesh, const ImproveOptions& options, const volmesh::Projector* projector);
+    /// `shapes` are those of all cells. What is done is added to `result`.
+    Improver(volmesh::TetMesh& mesh, std::vector<Shape> shapes, const ImproveOptions& options,
+             const volmesh::Projector* projector, ImproveResult& result);
 
-    double worst() const;
     /// Tries all cells that are not good enough and near which something has changed since they were last
     /// tried, the worst first. Vertices are added and taken out only with `all_moves`. Returns the number of
     /// moves.
     std::size_t pass(bool all_moves);
-    /// Moves vertices towards the middle of their cells where that raises the sum of beta round them, but
-    /// lowers no least objective below good_enough.
-    void raise_mean();
-
-    const ImproveResult& result() const { return result_; }
+    const std::vector<Shape>& shapes() const { return shapes_; }
 
   private:
     using CellHandle = volmesh::CellHandle;
@@ -45,8 +43,7 @@ class Improver {
     /// Notes the new shapes of cells that have changed and of those from first_new on.
     void settle(const CellList& changed, std::uint32_t first_new);
     void note_shape(CellHandle c, const Shape& shape);
-    /// How far the longest edge is beyond what the size allows, at least 1; 1 where no size is given.
-    double excess(const std::array<Point, 4>& cell) const;
+    /// The greatest excess over the size.
     double excess(const CellList& cells) const;
 
     // improver_smooth.cc
@@ -81,6 +78,7 @@ class Improver {
 
     volmesh::TetMesh& mesh_;
     const ImproveOptions& options_;
+    SizeLimit limit_;
     const volmesh::Projector* projector_;
     volmesh::FaceSurfaces surfaces_of_;
     Freedoms freedoms_;
@@ -91,7 +89,7 @@ class Improver {
     std::vector<std::uint32_t> tried_;    ///< when each cell was last tried
     std::vector<std::uint32_t> changed_;  ///< when a cell at each vertex last changed
     std::uint32_t now_ = 1;
-    ImproveResult result_;
+    ImproveResult& result_;
 };
 
 }  // namespace maille::quality

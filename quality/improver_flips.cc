@@ -174,15 +174,15 @@ std::optional<Improver::EdgeRemoval> Improver::edge_removal(CellHandle c, int ed
 }
 
 bool Improver::keeps_size(const EdgeRemoval& removal) const {
-    if (!options_.size) return true;
+    if (!limit_.exists()) return true;
     const double most = excess(removal.ring.cells);
     return std::ranges::all_of(removal.triangles, [&](const RingTriangle& t) {
         std::array<Point, 4> cell;
         for (int i = 0; i < 3; ++i) cell[i] = mesh_.point(removal.ring.vertices[t[i]]);
         cell[3] = mesh_.point(removal.ring.a);
-        if (excess(cell) > most) return false;
+        if (limit_.excess(cell) > most) return false;
         cell[3] = mesh_.point(removal.ring.b);
-        return excess(cell) <= most;
+        return limit_.excess(cell) <= most;
     });
 }
 
@@ -224,7 +224,7 @@ std::optional<Improver::FaceRemoval> Improver::face_removal(CellHandle c, int fa
     }
     if (!(best.quality > quality(cells) + least_gain) || !volmesh::is_face_removal_ok(mesh_, best.faces))
         return std::nullopt;
-    if (options_.size) {
+    if (limit_.exists()) {
         const Point a = mesh_.point(mesh_.cell_vertex(c, face));
         const HalffaceHandle beyond = mesh_.opposite_halfface_handle(hf);
         const Point b =
@@ -233,7 +233,7 @@ std::optional<Improver::FaceRemoval> Improver::face_removal(CellHandle c, int fa
         for (HalffaceHandle side : best.faces) {
             const auto v = mesh_.halfface_vertices(side);
             for (int i = 0; i < 3; ++i)
-                if (excess({a, b, mesh_.point(v[i]), mesh_.point(v[(i + 1) % 3])}) > most)
+                if (limit_.excess({a, b, mesh_.point(v[i]), mesh_.point(v[(i + 1) % 3])}) > most)
                     return std::nullopt;
         }
     }

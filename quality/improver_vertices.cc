@@ -37,7 +37,7 @@ std::optional<Improver::Collapse> Improver::collapse_of(VertexHandle gone, Verte
         auto p = mesh_.cell_points(c);
         p[mesh_.local_vertex(c, gone)] = to;
         worst = std::min(worst, objective(p[0], p[1], p[2], p[3]));
-        if (!(worst > floor) || longest_edge_squared(p) > longest_before || excess(p) > most_excess)
+        if (!(worst > floor) || longest_edge_squared(p) > longest_before || limit_.excess(p) > most_excess)
             return std::nullopt;
     }
     double tolerance = 1e-10 * (to - mesh_.point(gone)).norm();

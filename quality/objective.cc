@@ -72,6 +72,32 @@ double weighted_beta(const Frame& t) {
     return below > 0 ? beta_weight * 12 * t.volume * t.volume / below : 0;
 }
 
+/// Logarithmic gradients in p: of the volume and of the areas.
+struct LogSlopes {
+    Point volume;
+    std::array<double, 4> areas;  ///< double ones, of the faces opposite each vertex
+    std::array<Point, 4> area_parts;
+
+    explicit LogSlopes(const Frame& t) : volume(t.normals[0] / t.volume) {
+        for (int i = 0; i < 4; ++i) areas[i] = std::sqrt(t.squared_areas[i]);
+        area_parts[0].setZero();
+        for (int i = 1; i < 4; ++i) area_parts[i] = t.normals[i].cross(t.rims[i - 1]) / t.squared_areas[i];
+    }
+};
+
+Point log_slope_of_beta(const Frame& t, const LogSlopes& log) {
+    const auto xyz = t.products();
+    const double sum = xyz[0] + xyz[1] + xyz[2];
+    Point heron_slope = Point::Zero();
+    Point areas_slope = Point::Zero();
+    for (int i = 0; i < 3; ++i) {
+        heron_slope -= 4 * (sum - 2 * xyz[i]) * t.rim_squares[i] * t.spokes[i];
+        areas_slope += log.areas[i + 1] * log.area_parts[i + 1];
+    }
+    const double all_areas = log.areas[0] + log.areas[1] + log.areas[2] + log.areas[3];
+    return 2 * log.volume - areas_slope / all_areas - heron_slope / (2 * heron(xyz));
+}
+
 }  // namespace
 
 Shape shape(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -106,7 +132,6 @@ double least_objective(const Point& p, const Bases& bases, double enough) {
 
 void append_slopes(const Point& p, const Base& base, double most, Slopes& slopes) {
     const Frame t(p, base[0], base[1], base[2]);
-    const Point volume_gradient = t.normals[0];
     if (!(t.volume > 0)) {
         const double value = t.gamma();
         double squares = 0;
@@ -114,40 +139,30 @@ void append_slopes(const Point& p, const Base& base, double most, Slopes& slopes
         if (value > most || !(squares > 0)) return;
         const Point outward = t.spokes[0] + t.spokes[1] + t.spokes[2];
         const double factor = std::numbers::sqrt2 / std::pow(squares / 6, 1.5);
-        slopes.push_back({value, factor * volume_gradient + 3 * value / squares * outward});
+        slopes.push_back({value, factor * t.normals[0] + 3 * value / squares * outward});
         return;
     }
-    // Logarithmic gradients: of the volume, of double areas and of the edges at p.
-    const Point volume_part = volume_gradient / t.volume;
-    std::array<double, 4> areas;
-    std::array<Point, 4> area_parts;
-    area_parts[0].setZero();
-    for (int i = 0; i < 4; ++i) areas[i] = std::sqrt(t.squared_areas[i]);
-    for (int i = 1; i < 4; ++i) area_parts[i] = t.normals[i].cross(t.rims[i - 1]) / t.squared_areas[i];
-
+    const LogSlopes log(t);
     const auto add = [&](double square, const std::array<int, 2>& at, const Point& edge_part) {
         const auto [i, j] = at;
-        const double value = weight_of_angle(t, i, j) * t.volume * std::sqrt(square) / (areas[i] * areas[j]);
+        const double value =
+            weight_of_angle(t, i, j) * t.volume * std::sqrt(square) / (log.areas[i] * log.areas[j]);
         if (value <= most)
-            slopes.push_back({value, value * (volume_part + edge_part - area_parts[i] - area_parts[j])});
+            slopes.push_back(
+                {value, value * (log.volume + edge_part - log.area_parts[i] - log.area_parts[j])});
     };
     for (int i = 0; i < 3; ++i) {
         add(t.spoke_squares[i], faces_at_spoke[i], -t.spokes[i] / t.spoke_squares[i]);
         add(t.rim_squares[i], faces_at_rim[i], Point::Zero());
     }
     const double value = weighted_beta(t);
-    if (value > most) return;
-    const auto xyz = t.products();
-    const double sum = xyz[0] + xyz[1] + xyz[2];
-    Point heron_gradient = Point::Zero();
-    Point sum_gradient = Point::Zero();
-    for (int i = 0; i < 3; ++i) {
-        heron_gradient += 2 * (sum - 2 * xyz[i]) * t.rim_squares[i] * -2 * t.spokes[i];
-        if (i < 3) sum_gradient += areas[i + 1] * area_parts[i + 1];
-    }
-    const double all_areas = areas[0] + areas[1] + areas[2] + areas[3];
-    slopes.push_back(
-        {value, value * (2 * volume_part - sum_gradient / all_areas - heron_gradient / (2 * heron(xyz)))});
+    if (value <= most) slopes.push_back({value, value * log_slope_of_beta(t, log)});
+}
+
+Slope beta_slope(const Point& p, const Base& base) {
+    const Frame t(p, base[0], base[1], base[2]);
+    const double beta = weighted_beta(t) / beta_weight;
+    return {beta, beta * log_slope_of_beta(t, LogSlopes(t))};
 }
 
 }  // namespace maille::quality

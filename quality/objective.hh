@@ -27,6 +27,9 @@ struct Shape {
 };
 Shape shape(const Point& a, const Point& b, const Point& c, const Point& d);
 
+/// What deleted cells count as.
+inline constexpr Shape perfect_shape{1, 1};
+
 /// The face of a cell that a vertex sees: with the vertex in front it is the cell, positively oriented.
 using Base = std::array<Point, 3>;
 using Bases = boost::container::small_vector<Base, 48>;
@@ -49,5 +52,8 @@ using Slopes = boost::container::small_vector<Slope, 32>;
 
 /// Appends those functions of the cell whose values are at most `most`.
 void append_slopes(const Point& p, const Base& base, double most, Slopes& slopes);
+
+/// beta of the cell with p in front of the base, and its gradient in p. Precondition: its volume is positive.
+Slope beta_slope(const Point& p, const Base& base);
 
 }  // namespace maille::quality

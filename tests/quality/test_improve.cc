@@ -3,6 +3,7 @@
 #include <random>
 
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 
 #include "quality/improve.hh"
 #include "quality/objective.hh"
@@ -73,6 +74,24 @@ double worst(const TetMesh& mesh) {
         least = std::min(least, objective(p[0], p[1], p[2], p[3]));
     }
     return least;
+}
+
+/// A cube whose cells are bisected at their longest edges again and again, most near a corner.
+TetMesh bisected_cube(unsigned seed) {
+    TetMesh mesh = shaken_cube(4, false, seed);
+    for (int round = 0; round < 9; ++round)
+        for (std::uint32_t i = 0, n = mesh.n_cells(); i < n; ++i) {
+            const auto p = mesh.cell_points(CellHandle(i));
+            const auto length = [&](int e) {
+                const auto [j, k] = tet::edge_vertices[e];
+                return (p[j] - p[k]).norm();
+            };
+            int longest = 0;
+            for (int e = 1; e < 6; ++e)
+                if (length(e) > length(longest)) longest = e;
+            if (length(longest) > 0.1 + 0.2 * p[0].norm()) mesh.split_edge(CellHandle(i), longest);
+        }
+    return mesh;
 }
 
 const ImproveOptions moves_only{
@@ -226,12 +245,68 @@ TEST_CASE("slivers that smoothing cannot cure go by a change of connectivity") {
     CHECK(boundary_area(mesh) == doctest::Approx(6).epsilon(1e-12));
 }
 
+TEST_CASE("the mean of a bisected mesh rises to what is wanted, with any number of threads alike") {
+    constexpr unsigned seed = 8;
+    CAPTURE(seed);
+    TetMesh mesh = bisected_cube(seed);
+    name_sides(mesh);
+    const SetHandle half = mesh.add_set("half", EntityKind::cell);
+    for (CellHandle c : mesh.cells()) {
+        const auto p = mesh.cell_points(c);
+        if ((p[0] + p[1] + p[2] + p[3]).x() < 2) mesh.insert(half, c);
+    }
+    const double half_before = measure(mesh, half);
+    const Report before = assess(mesh);
+    const TetMesh start = mesh;
+    const ImproveResult result = improve(mesh);
+    const Report after = assess(mesh);
+    MESSAGE(before.cells << " cells, mean beta " << before[Measure::beta].mean << " to "
+                         << after[Measure::beta].mean << ", " << result.edge_removals << " edges removed, "
+                         << result.moves << " moves");
+    CHECK(before[Measure::beta].mean < 0.72);
+    CHECK(after[Measure::beta].mean > before[Measure::beta].mean + 0.07);
+    CHECK(result.worst_after > result.worst_before + 0.1);
+    CHECK(result.worst_after == worst(mesh));
+    CHECK(validate(mesh).ok());
+    CHECK(measure(mesh, half) == doctest::Approx(half_before).epsilon(1e-12));
+    for (const auto& name : side_names)
+        CHECK(measure(mesh, mesh.find_set(name, EntityKind::face)) == doctest::Approx(1).epsilon(1e-12));
+    for (const int threads : {1, 3, 4}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        TetMesh other = start;
+        improve(other);
+        CHECK(std::ranges::equal(mesh.points(), other.points()));
+        CHECK(std::ranges::equal(mesh.cell_vertex_indices(), other.cell_vertex_indices()));
+    }
+}
+
+TEST_CASE("raising the mean lowers no cell below what is good enough") {
+    TetMesh mesh = bisected_cube(12);
+    const TetMesh start = mesh;
+    const double floor = worst(mesh);
+    for (const double good_enough : {floor / 2, floor, 0.45, 1.0}) {
+        mesh = start;
+        improve(mesh, {.max_passes = 0, .good_enough = good_enough, .good_mean = 1});
+        CHECK(assess(mesh)[Measure::beta].mean > assess(start)[Measure::beta].mean + 0.05);
+        CHECK(worst(mesh) > std::min(floor, good_enough));
+    }
+}
+
 TEST_CASE("no cell becomes longer than the size allows") {
     TetMesh mesh = shaken_cube(6, false, 9);
     const WantedSize size = [](const Point& p) { return 0.2 + 0.05 * p.x(); };
     const double before = assess(mesh, &size)[Measure::phi].max;
     improve(mesh, {.good_enough = 0.6, .size = &size, .ratio = 1.5});
     CHECK(assess(mesh, &size)[Measure::phi].max <= std::max(before, 1.5));
+
+    TetMesh bisected = bisected_cube(5);
+    const WantedSize graded = [](const Point& p) { return (0.1 + 0.2 * p.norm()) / 1.3; };
+    const double phi = assess(bisected, &graded)[Measure::phi].max;
+    TetMesh free = bisected;
+    improve(free, {.good_mean = 1});
+    improve(bisected, {.good_mean = 1, .size = &graded, .ratio = phi});
+    CHECK(assess(free, &graded)[Measure::phi].max > phi);
+    CHECK(assess(bisected, &graded)[Measure::phi].max <= phi);
 }
 
 TEST_CASE("the same mesh is bettered the same way") {
@@ -266,6 +341,17 @@ TEST_CASE("the objective stands for the angles and beta, and its slopes are its 
         append_slopes(p, base, std::numeric_limits<double>::infinity(), slopes);
         const auto lowest = std::ranges::min_element(slopes, {}, &Slope::value);
         CHECK(lowest->value == doctest::Approx(value).epsilon(1e-9));
+        if (value > 0) {
+            const Slope slope = beta_slope(p, base);
+            CHECK(slope.value == doctest::Approx(beta(t)).epsilon(1e-9));
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto beta_at = [&](double step) {
+                    return beta(tet_geometry(p + step * Point::Unit(axis), base[0], base[1], base[2]));
+                };
+                CHECK((beta_at(1e-6) - beta_at(-1e-6)) / 2e-6 ==
+                      doctest::Approx(slope.gradient[axis]).scale(1 + slope.gradient.norm()).epsilon(1e-4));
+            }
+        }
         // A small step: along it the lowest function changes as its gradient says.
         constexpr double h = 1e-7;
         for (int axis = 0; axis < 3; ++axis) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include "quality/measures.hh"
+#include "quality/report.hh"
+
+namespace maille::quality {
+
+/// How long cells may be.
+class SizeLimit {
+  public:
+    /// Without a size cells may be of any length.
+    SizeLimit(const WantedSize* size, double ratio) : size_(size), ratio_(ratio) {}
+
+    bool exists() const { return size_ != nullptr; }
+    /// How far the longest edge is beyond `ratio` times the size at the centroid, at least 1.
+    double excess(const std::array<Point, 4>& cell) const;
+
+  private:
+    const WantedSize* size_;
+    double ratio_;
+};
+
+}  // namespace maille::quality
