@@ -246,7 +246,7 @@ class Quality(MailleCase):
         self.assertIn("sigma", self.maille("quality", "part.vtu"))
 
     def test_improve(self):
-        self.mesh(PLATE, "0.5")
+        self.mesh(PLATE, "0.5", "part.vtu", "--no-improve")
         before = self.maille_json("quality", "part.vtu")
         after = self.maille_json("quality", "part.vtu", "--improve", "better.vtu", "--model", "part.csg")
         self.assertEqual(after, self.maille_json("quality", "better.vtu"))

@@ -14,7 +14,7 @@ SLAB = 'name("slab") cube([4, 4, 0.12]);'
 class Critical(MailleCase):
     def setUp(self):
         super().setUp()
-        self.mesh(SLAB, 0.8)
+        self.mesh(SLAB, 0.8, "part.vtu", "--no-improve")
         self.tets = meshio.read(self.folder / "part.vtu")
         self.cells = next(block for block in self.tets.cells if block.type == "tetra").data
         self.errors = np.random.default_rng(1).exponential(size=len(self.cells))
