@@ -109,17 +109,16 @@ class Browser:
             return [box.x + box.width / 2, box.y + box.height / 2];
         }})()""")
 
-    def click(self, selector):
-        self.click_at(*self.place(selector))
-
-    def click_at(self, x, y):
+    def click(self, selector, shift=False):
+        x, y = self.place(selector)
         for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
-            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1, modifiers=8 * shift)
         self.settle()
 
     def press(self, key):
+        text = "\r" if key == "Enter" else key if len(key) == 1 else ""
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key)
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, text=text if kind == "keyDown" else "")
         self.settle()
 
     def text(self, selector):

@@ -109,6 +109,30 @@ class Page(MailleCase):
         self.browser.click(selector)
         self.assertEqual(self.faces_drawn(), tets.shell(np.full(len(tets.cells), True)))
 
+    def test_a_click_on_a_criterion_shows_what_it_counts(self):
+        self.mesh('name("slab") cube([4, 4, 0.1]);', 0.8)
+        report = self.maille_json("quality", "part.vtu", "--worst", 10000, "--html", "part.html")
+        self.browser.open(self.folder / "part.html")
+        tets = Tets(self.folder / "part.vtu")
+        bad = report["bad_shape"]["cells"]
+        self.assertTrue(0 < bad < len(tets.cells))
+        self.browser.click("[data-band='bad shape'] button")
+        self.assertIn(f"; {bad:,} elements chosen", self.browser.text("#status"))
+        below = [w["cell"] for w in report["worst"] if w["sigma"] < 0.4]
+        self.browser.click("[data-band='r/Lmax<0.4'] button")
+        self.assertIn(f"; {len(below):,} elements chosen", self.browser.text("#status"))
+        self.assertEqual(self.faces_drawn(), tets.shell(below))
+
+    def test_more_bars_are_chosen_with_the_shift_key(self):
+        tets, report = self.open()
+        histogram = report["measures"]["alpha"]["histogram"]
+        first = next(k for k, n in enumerate(histogram) if n)
+        last = next(k for k in reversed(range(len(histogram))) if histogram[k])
+        self.browser.click(f"[data-quantity=alpha] [data-bin='{first}']")
+        self.browser.click(f"[data-quantity=alpha] [data-bin='{last}']", shift=True)
+        self.assertIn(f"; {len(tets.cells):,} elements chosen", self.browser.text("#status"))
+        self.assertEqual(self.faces_drawn(), tets.shell(np.full(len(tets.cells), True)))
+
     def test_the_keyboard_chooses_a_bar(self):
         _, report = self.open()
         histogram = report["measures"]["tau"]["histogram"]
@@ -163,7 +187,11 @@ class Page(MailleCase):
         self.assertEqual(self.told(), (worst["cell"], ", ".join(worst["sets"])))
         values = dict(re.findall(r"(sigma|phi)(-?[\d.]+)", self.browser.text("#element .values")))
         self.assertAlmostEqual(float(values["sigma"]), worst["sigma"], 3)
-        self.browser.click("#element button:last-child")
+        self.browser.click("#element .buttons button:last-child")
+        self.browser.click("#element input")
+        self.browser.call("Input.insertText", text="17")
+        self.browser.press("Enter")
+        self.assertEqual(self.told()[0], 17)
         self.browser.click("#reset")
         self.browser.click("#canvas")
         cell, sets = self.told()
@@ -199,15 +227,19 @@ class Page(MailleCase):
             self.assertTrue(self.browser.js(f"!!document.querySelector('#lists tr[data-cell=\"{worst['cell']}\"]')"))
 
     def test_critical_elements(self):
-        self.mesh(MODEL, 0.5)
+        self.mesh('name("slab") cube([4, 4, 0.1]);', 0.8)
         mesh = meshio.read(self.folder / "part.vtu")
         cells = next(block for block in mesh.cells if block.type == "tetra").data
         meshio.write_points_cells(self.folder / "error.vtu", mesh.points, [("tetra", cells)],
-                                  cell_data={"eta": [np.arange(len(cells), dtype=float)]})
+                                  cell_data={"eta": [np.random.default_rng(3).exponential(size=len(cells))]})
         report = self.maille_json("quality", "part.vtu", "--error", "error.vtu:eta", "--html", "part.html")
         self.browser.open(self.folder / "part.html")
         self.assertIn("error", self.browser.text("#histograms"))
         self.assertIn(f"critical{report['critical']['cells']:,}", self.browser.text("#bands"))
+        self.assertGreater(report["critical"]["cells"], 0)
+        self.browser.click("[data-band=critical] button")
+        self.assertIn(f"; {report['critical']['cells']:,} elements chosen", self.browser.text("#status"))
+        self.assertNotIn("of them in this page", self.browser.text("#status"))
 
     def test_names_do_no_harm(self):
         self.mesh('name("<!--<script><i>&amp;") cube(1);', 0.6, "a<b>.vtu")

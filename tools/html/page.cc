@@ -45,8 +45,9 @@ void write_page(const volmesh::TetMesh& mesh, const quality::Report& report, con
     const Contents contents = contents_of(mesh, report, options);
     volmesh::io::OutputFile file(path);
     file << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-         << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>"
-         << escaped(options.title) << " - mesh quality</title>\n</head>\n<body>\n"
+         << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         << "<link rel=\"icon\" href=\"data:,\">\n<title>" << escaped(options.title)
+         << " - mesh quality</title>\n</head>\n<body>\n"
          << "<script type=\"application/json\" id=\"figures\">" << within_script(contents.figures)
          << "</script>\n<script type=\"text/plain\" id=\"arrays\">"
          << compressed_base64(contents.blob.bytes()) << "</script>\n<script>"

@@ -13,24 +13,39 @@ function pairs(list) {
   return list.reduce((all, entry, i) => (i % 2 ? all[all.length - 1].push(entry) : all.push([entry]), all), []);
 }
 
-/** The cells that the page carries, worst first. */
+/** Of the cells that the page carries the worst, worst first. */
 function worstCells(mesh, quantity) {
-  const badness = Float64Array.from({length: mesh.n}, (_, c) => -quantity.goodness(quantity.value(c)));
-  const order = Uint32Array.from({length: mesh.n}, (_, c) => c);
-  return [...order.sort((a, b) => badness[b] - badness[a] || a - b).subarray(0, N_LISTED)];
+  const badness = Float32Array.from({length: mesh.n}, (_, c) => 1 - quantity.goodness(quantity.value(c)));
+  const least = badness.slice().sort()[Math.max(0, mesh.n - N_LISTED)];
+  const cells = [];
+  for (let c = 0; c < mesh.n; ++c) if (badness[c] >= least) cells.push(c);
+  return cells.sort((a, b) => badness[b] - badness[a] || a - b).slice(0, N_LISTED);
 }
 
-export function makeElementPanel(parent, mesh, state, actions) {
+/** A place to type an element's number. */
+function finder(mesh, actions, tell) {
+  const byNumber = new Map(Array.from(mesh.numbers, (n, c) => [n, c]));
+  const input = element('input', {type: 'text', inputmode: 'numeric', size: 9, placeholder: 'find number', 'aria-label': 'Find an element by its number'});
+  input.addEventListener('change', () => {
+    const number = Number(input.value.replace(/[ ,]/g, ''));
+    if (byNumber.has(number)) actions.lookAt(byNumber.get(number));
+    else tell(`This page carries no element ${input.value}.`);
+  });
+  return input;
+}
+
+export function makeElementPanel(parent, mesh, state, actions, tell) {
+  const title = element('div', {class: 'panel-title'}, element('h2', {}, 'Element'), finder(mesh, actions, tell));
   const update = () => {
     const c = state.cell;
-    parent.replaceChildren(element('h2', {}, 'Element'));
+    parent.replaceChildren(title);
     if (c === null) {
       parent.append(element('p', {class: 'empty'}, 'Click on an element of the mesh or of a list below.'));
       return;
     }
     const sets = mesh.setsOfCell(c).map((i) => mesh.sets[i].name);
     const touched = mesh.setsTouched(c);
-    const facts = [['number', count(mesh.numbers[c])], ['at', `(${mesh.place(c).map(figure).join(', ')})`],
+    const facts = [['number', count(mesh.numbers[c])], ['at', mesh.place(c)],
                    ['in', sets.join(', ') || 'no set'], ['touches', touched.join(', ') || 'no face set']];
     const values = mesh.quantities.map((q) => [q.name.replace('dihedral_', '\u2220 ').replace('solid_angle_', '\u03a9 ').replace('_', ' '), q.unit === 'degrees' ? withUnit(q.value(c), q.unit) : figure(q.value(c))]);
     parent.append(
@@ -38,7 +53,7 @@ export function makeElementPanel(parent, mesh, state, actions) {
         'tr', {}, element('th', {}, element('small', {}, name)), element('td', {'data-fact': name}, value)))),
       element('table', {class: 'values'}, ...rows(pairs(values))),
       element('div', {class: 'buttons'},
-              element('button', {type: 'button', onclick: () => actions.flyTo(c)}, 'Go there'),
+              element('button', {type: 'button', onclick: () => actions.lookAt(c)}, 'Go there'),
               element('button', {type: 'button', onclick: () => actions.cutAt(c)}, 'Cut here'),
               element('button', {type: 'button', onclick: () => state.set({cell: null})}, 'Clear')));
   };
@@ -46,16 +61,12 @@ export function makeElementPanel(parent, mesh, state, actions) {
   update();
 }
 
-function listOf(mesh, state, cells, columns, actions) {
+function listOf(mesh, cells, columns, actions) {
   const body = element('tbody', {}, ...cells.map((c) => {
     const row = element('tr', {tabindex: 0, 'data-cell': mesh.numbers[c]}, ...columns.map(([, value]) =>
       element('td', {class: 'number'}, value(c))));
-    const look = () => {
-      state.set({cell: c});
-      actions.flyTo(c);
-    };
-    row.addEventListener('click', look);
-    row.addEventListener('keydown', (event) => event.key === 'Enter' && look());
+    row.addEventListener('click', () => actions.lookAt(c));
+    row.addEventListener('keydown', (event) => event.key === 'Enter' && actions.lookAt(c));
     return row;
   }));
   const head = element('thead', {}, element('tr', {}, ...columns.map(([name]) => element('th', {class: 'number'}, name))));
@@ -73,10 +84,10 @@ export function makeLists(parent, mesh, report, state, actions) {
     const quantity = mesh.quantities[typeof state.color === 'number' ? state.color : 1];
     const columns = [number, column(quantity), ...angles.filter(([name]) => name !== column(quantity)[0])];
     parent.replaceChildren(element('h2', {}, `Worst by ${quantity.name}`),
-                           listOf(mesh, state, worstCells(mesh, quantity), columns, actions));
+                           listOf(mesh, worstCells(mesh, quantity), columns, actions));
     if (critical)
       parent.append(element('h2', {style: 'margin-top:14px'}, 'Critical: bad shape and an error above the mean'),
-                    critical.length ? listOf(mesh, state, critical, [number, column(byName('error')), column(byName('sigma'))], actions)
+                    critical.length ? listOf(mesh, critical, [number, column(byName('error')), column(byName('sigma'))], actions)
                                     : element('p', {class: 'empty'}, 'None.'));
     mark();
   };

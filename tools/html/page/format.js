@@ -9,6 +9,12 @@ export function figure(x) {
   return size < 1e4 ? String(rounded) : count(rounded);
 }
 
+/** A coordinate in something of that size: to four digits of the size. */
+export function coordinate(x, size) {
+  const unit = 10 ** (Math.floor(Math.log10(size || 1)) - 4);
+  return figure(Math.round(x / unit) * unit);
+}
+
 export function count(n) {
   return n.toLocaleString('en-GB');
 }

@@ -1,4 +1,4 @@
-// A histogram of each quantity; a click on a bar shows its cells.
+// A histogram of each quantity; a click on a bar shows its cells, with the shift key those up to it.
 
 import {css, goodnessColor} from './colors.js';
 import {count, element, percent, withUnit} from './format.js';
@@ -50,7 +50,7 @@ class Bars {
       const fill = css(goodnessColor(quantity.goodness((low + high) / 2)));
       group.append(shape('rect', {x: bin + 0.06, width: 0.88, fill}),
                    shape('rect', {x: bin, y: 0, width: 1, height: 1, class: 'hit'}));
-      if (n) group.addEventListener('click', () => state.toggleBar(index, bin));
+      if (n) group.addEventListener('click', (event) => state.chooseBar(index, bin, event.shiftKey));
       group.addEventListener('mouseenter', () => tell(barText(quantity, bin)));
       group.addEventListener('mouseleave', () => tell(null));
       this.svg.append(group);
@@ -67,7 +67,7 @@ class Bars {
       this.groups.forEach((group, bin) => group.classList.toggle('at', bin === this.at));
       tell(barText(this.quantity, this.at));
     } else if (event.key === 'Enter' || event.key === ' ') {
-      if (this.quantity.histogram[this.at]) state.toggleBar(index, this.at);
+      if (this.quantity.histogram[this.at]) state.chooseBar(index, this.at, event.shiftKey);
     } else {
       return;
     }
@@ -85,12 +85,13 @@ class Bars {
     });
   }
 
-  mark(bin) {
+  mark(bars) {
     this.groups.forEach((group, i) => {
-      group.classList.toggle('chosen', i === bin);
-      group.setAttribute('aria-selected', i === bin);
+      const isChosen = bars !== null && i >= bars.first && i <= bars.last;
+      group.classList.toggle('chosen', isChosen);
+      group.setAttribute('aria-selected', isChosen);
     });
-    this.svg.classList.toggle('has-choice', bin !== null);
+    this.svg.classList.toggle('has-choice', bars !== null);
   }
 }
 
@@ -123,7 +124,7 @@ export function makeHistograms(parent, scaleButton, mesh, state, tell) {
   scale();
   const mark = () => cards.forEach(({bars, card}, index) => {
     card.classList.toggle('current', state.color === index);
-    bars.mark(state.bar && state.bar.quantity === index ? state.bar.bin : null);
+    bars.mark(state.bars && state.bars.quantity === index ? state.bars : null);
   });
   state.onChange(mark);
   mark();

@@ -1,9 +1,10 @@
 /*! three.js, copyright 2010-2019 three.js authors, under the MIT licence (threejs.org/license) */
 // The page of `maille quality --html`: reads what the program put into it and sets everything up.
 
+import {makeBands} from './bands.js';
 import {readArrays} from './data.js';
 import {makeElementPanel, makeLists} from './elements.js';
-import {count, element, figure, percent, withUnit} from './format.js';
+import {coordinate, count, element, figure, withUnit} from './format.js';
 import {makeHistograms} from './histograms.js';
 import {Mesh} from './mesh.js';
 import style from './page.css';
@@ -23,23 +24,15 @@ function showFacts(figures) {
   const {report} = figures;
   byId('title').textContent = figures.title;
   const fact = (value, name, isBad) => element('li', {class: isBad ? 'bad' : null}, element('b', {}, value), ` ${name}`);
-  const box = figures.origin.map((low, k) => `${figure(low)} \u2026 ${figure(low + figures.step * figures.extent[k])}`);
+  const size = figures.step * Math.max(...figures.extent);
+  const box = figures.origin.map((low, k) => `${coordinate(low, size)} \u2026 ${coordinate(low + figures.step * figures.extent[k], size)}`);
   byId('facts').append(
     fact(count(report.cells), 'elements'), fact(count(figures.vertices), 'vertices'),
     fact(count(report.inverted), 'flat or inverted', report.inverted > 0),
     fact(`${withUnit(report.measures.dihedral_min.min, 'degrees')} \u2013 ${withUnit(report.measures.dihedral_max.max, 'degrees')}`,
          'dihedral angles'),
     fact(figure(figures.volume), 'volume'), fact(figure(figures.area), 'area'),
-    element('li', {title: 'In the units of the mesh'}, element('small', {}, `x ${box[0]}, y ${box[1]}, z ${box[2]}`)));
-}
-
-function showBands({report}) {
-  const cells = ({cells, percent: part}) => `${count(cells)}, ${percent(part)}`;
-  const rows = Object.entries(report.criteria).map(([name, value]) => [name.replaceAll('<', ' < '), percent(value), false]);
-  rows.push(['bad shape', cells(report.bad_shape), report.bad_shape.cells > 0]);
-  if (report.critical) rows.push(['critical', cells(report.critical), report.critical.cells > 0]);
-  byId('bands').append(...rows.map(([name, value, isBad]) => element(
-    'tr', {}, element('th', {}, name), element('td', {class: isBad ? 'number bad' : 'number'}, value))));
+    element('li', {}, element('small', {}, `x ${box[0]}, y ${box[1]}, z ${box[2]}, in the mesh's unit`)));
 }
 
 function tellWhatIsLeftOut({report, selection, sets}) {
@@ -65,14 +58,14 @@ function chooseTheme(view) {
 
 function keepViewUpToDate(mesh, state, view) {
   const status = () => {
-    const bar = state.bar && mesh.quantities[state.bar.quantity];
-    const n = bar && bar.histogram[state.bar.bin];
-    const carried = bar && mesh.mask((c) => bar.bin(c) === state.bar.bin).reduce((sum, x) => sum + x, 0);
-    const part = n === carried ? '' : `, ${count(carried)} of them in this page`;
-    byId('status').textContent = `${count(view.shown.length)} faces drawn` + (bar ? `; ${count(n)} elements chosen${part}` : '');
+    const {chosen} = state;
+    const carried = chosen && mesh.mask(chosen.test).reduce((sum, x) => sum + x, 0);
+    const part = !chosen || chosen.count === carried ? '' : `, ${count(carried)} of them in this page`;
+    byId('status').textContent = `${count(view.shown.length)} faces drawn` +
+      (chosen ? `; ${count(chosen.count)} elements chosen${part}` : '');
   };
   const update = (changes) => {
-    if ('bar' in changes || 'cut' in changes || 'hidden' in changes || 'only' in changes) {
+    if ('chosen' in changes || 'cut' in changes || 'hidden' in changes || 'only' in changes) {
       view.ghost.visible = state.isGhostShown();
       view.showMarks(state);
       view.show(state.facesShown(), state.faceColor());
@@ -84,7 +77,7 @@ function keepViewUpToDate(mesh, state, view) {
     status();
   };
   state.onChange(update);
-  update({bar: null, cell: null});
+  update({chosen: null, cell: null});
 }
 
 function listenToPointer(mesh, state, view) {
@@ -105,7 +98,7 @@ function listenToPointer(mesh, state, view) {
       const quantity = mesh.quantities[typeof state.color === 'number' ? state.color : 1];
       const sets = cell === null ? [] : mesh.setsOfCell(cell).map((i) => mesh.sets[i].name);
       tell(cell === null ? null : [`element ${count(mesh.numbers[cell])}`, `${quantity.name} ${withUnit(quantity.value(cell), quantity.unit)}`,
-                                   `(${mesh.place(cell).map(figure).join(', ')})`, ...sets].join(' \u00b7 '));
+                                   mesh.place(cell), ...sets].join(' \u00b7 '));
     });
   });
   canvas.addEventListener('pointerleave', () => tell(null));
@@ -127,12 +120,12 @@ async function start() {
   document.head.append(element('style', {}, style));
   document.body.insertAdjacentHTML('afterbegin', skeleton);
   showFacts(figures);
-  showBands(figures);
   tellWhatIsLeftOut(figures);
   if (typeof DecompressionStream === 'undefined')
     throw new Error('this browser is too old to unpack the mesh: it takes Firefox 113, Chrome 80, Safari 16.4 or later');
   const mesh = new Mesh(figures, await readArrays(base64, figures.arrays));
   const state = new State(mesh, figures.selection.whole, figures.selection.cuts);
+  makeBands(byId('bands'), mesh, figures.report, state);
   makeHistograms(byId('histograms'), byId('scale'), mesh, state, tell);
   let view = null;
   try {
@@ -142,17 +135,23 @@ async function start() {
   }
   chooseTheme(view);
   makeSets(byId('sets'), mesh, state);
-  const actions = {flyTo: (c) => view?.flyTo(c), cutAt: (c) => view && cutAt(mesh, state, view, c)};
+  const actions = {
+    lookAt(c) {
+      state.set({cell: c});
+      view?.flyTo(c);
+    },
+    cutAt: (c) => view && cutAt(mesh, state, view, c),
+  };
   if (view) {
     keepViewUpToDate(mesh, state, view);
-    makeToolbar(mesh, state, view);
+    makeToolbar(mesh, state, view, tell);
     makeLegend(mesh, state);
     listenToPointer(mesh, state, view);
     listenToKeys(mesh, state, view);
     view.onDraw(() => drawAxes(view));
     view.onDraw(() => placeRing(state, view));
   }
-  makeElementPanel(byId('element'), mesh, state, actions);
+  makeElementPanel(byId('element'), mesh, state, actions, tell);
   makeLists(byId('lists'), mesh, figures.report, state, actions);
   document.documentElement.dataset.ready = 'yes';
 }

@@ -1,5 +1,7 @@
 // The cells that the page carries: where they are, how good, whose neighbours.
 
+import {coordinate} from './format.js';
+
 /** Local faces, seen from outside; as volmesh/tet_topology.hh has them. */
 const FACE_CORNERS = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 export const EDGE_ENDS = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
@@ -50,6 +52,7 @@ export class Mesh {
       extent: figures.extent,
       origin: figures.origin,
       step: figures.step,
+      size: figures.step * Math.max(...figures.extent),
     });
     this.quantities = figures.quantities.map((info) => new Quantity(info, arrays[`code ${info.name}`]));
     this.sets = figures.sets.map((set, i) => ({...set, index: i, vertices: arrays[`set ${i}`]}));
@@ -111,9 +114,10 @@ export class Mesh {
     return [...found];
   }
 
-  /** In the mesh's own coordinates. */
+  /** The centroid, in the mesh's own coordinates, as text. */
   place(cell) {
-    return [0, 1, 2].map((k) => this.origin[k] + this.step * this.sums[3 * cell + k] / 4);
+    const x = [0, 1, 2].map((k) => this.origin[k] + this.step * this.sums[3 * cell + k] / 4);
+    return `(${x.map((value) => coordinate(value, this.size)).join(', ')})`;
   }
 
   /** The cells for which `test(cell)` holds, as a mask. */

@@ -1,11 +1,11 @@
 // What stands round the mesh: the toolbar, the legend, the axes and the keys.
 
 import {css, goodnessColor, setColor} from './colors.js';
-import {element, figure, withUnit} from './format.js';
+import {coordinate, element, figure, withUnit} from './format.js';
 
 const byId = (id) => document.getElementById(id);
 
-export function makeToolbar(mesh, state, view) {
+export function makeToolbar(mesh, state, view, tell) {
   const color = byId('color');
   color.append(
     element('optgroup', {label: 'Measure'}, ...mesh.quantities.map((q, i) => element('option', {value: i}, q.name))),
@@ -24,6 +24,7 @@ export function makeToolbar(mesh, state, view) {
   byId('cut-flip').addEventListener('click', () => state.set({cut: {...state.cut, flip: !state.cut.flip}}));
   byId('edges').addEventListener('click', () => state.set({edges: !state.edges}));
   byId('reset').addEventListener('click', () => view.reset());
+  byId('keys').addEventListener('click', () => tell(byId('canvas').getAttribute('aria-label')));
 
   const update = () => {
     color.value = state.color;
@@ -48,7 +49,7 @@ function cutPlace(state) {
 function cutText(state) {
   const {along, slider} = state.cut;
   if (along === null) return '';
-  return along === 'view' ? `${figure(slider / 10)} %` : `${'xyz'[along]} = ${figure(cutPlace(state))}`;
+  return along === 'view' ? `${figure(slider / 10)} %` : `${'xyz'[along]} = ${coordinate(cutPlace(state), state.mesh.size)}`;
 }
 
 /** Cuts in the middle, looking at it from the side that is cut away. */
@@ -137,7 +138,7 @@ export function listenToKeys(mesh, state, view) {
     v: () => state.whole && cutAlong(state, view, 'view'),
     l: () => state.set({edges: !state.edges}),
     r: () => view.reset(),
-    Escape: () => state.set({bar: null, cell: null, cut: {...state.cut, along: null}, only: new Set()}),
+    Escape: () => state.set({chosen: null, bars: null, cell: null, cut: {...state.cut, along: null}, only: new Set()}),
   };
   byId('canvas').addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || !(event.key in keys)) return;

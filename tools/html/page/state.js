@@ -9,7 +9,8 @@ export class State {
     this.cuts = cuts;
     this.listeners = [];
     this.color = 1;          // a quantity's number, 'cells' or 'faces'
-    this.bar = null;         // {quantity, bin}
+    this.chosen = null;      // {name, count, test}: the cells of bars, or what a criterion counts
+    this.bars = null;        // {quantity, first, last}, where the chosen cells are those of bars
     this.cell = null;        // the cell that is looked at
     this.cut = {along: null, slider: 500, flip: false, normal: null};
     this.hidden = new Set(mesh.sets.filter((s) => s.kind === 'vertex' || s.kind === 'edge').map((s) => s.index));
@@ -27,9 +28,20 @@ export class State {
     for (const listener of this.listeners) listener(changes);
   }
 
-  toggleBar(quantity, bin) {
-    const same = this.bar && this.bar.quantity === quantity && this.bar.bin === bin;
-    this.set({bar: same ? null : {quantity, bin}, color: quantity});
+  /** Chooses the cells of a bar; with `extend` of all bars from the chosen ones to it. Again: no cells. */
+  chooseBar(index, bin, extend) {
+    const old = this.bars && this.bars.quantity === index ? this.bars : null;
+    if (old && !extend && old.first === bin && old.last === bin) return this.choose(null);
+    const first = extend && old ? Math.min(old.first, bin) : bin;
+    const last = extend && old ? Math.max(old.last, bin) : bin;
+    const quantity = this.mesh.quantities[index];
+    const test = (c) => quantity.bin(c) >= first && quantity.bin(c) <= last;
+    const count = quantity.histogram.slice(first, last + 1).reduce((sum, n) => sum + n, 0);
+    return this.set({chosen: {name: quantity.name, count, test}, bars: {quantity: index, first, last}, color: index});
+  }
+
+  choose(chosen) {
+    this.set({chosen, bars: null});
   }
 
   toggleSet(which, set) {
@@ -82,19 +94,16 @@ export class State {
   facesShown() {
     const {mesh} = this;
     const left = this.cellsLeft();
-    if (this.bar) {
-      const quantity = mesh.quantities[this.bar.quantity];
-      return mesh.shell(mesh.mask((c) => left[c] && quantity.bin(c) === this.bar.bin), true);
-    }
+    if (this.chosen) return mesh.shell(mesh.mask((c) => left[c] && this.chosen.test(c)), true);
     const allowed = mesh.combinations.map((sets) => this.setsAllow(sets.filter((i) => mesh.sets[i].kind === 'face'), 'face'));
     if ([...this.only].some((i) => mesh.sets[i].kind === 'face'))
       return mesh.facesWhere(left, (hf) => allowed[mesh.faces[hf] >> 1]);
     return mesh.shell(left, false).filter((hf) => !mesh.isBoundary(hf) || allowed[mesh.faces[hf] >> 1]);
   }
 
-  /** The boundary, to be hinted at behind the cells of a bar or the faces of a set. */
+  /** The boundary, to be hinted at behind the chosen cells or the faces of a set. */
   isGhostShown() {
-    return this.bar !== null || this.only.size > 0;
+    return this.chosen !== null || this.only.size > 0;
   }
 
   /** Of what is in several sets: the colour of the smallest. */
