@@ -1,6 +1,7 @@
 #include "modeler/extrude.hh"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <fmt/format.h>
@@ -50,6 +51,8 @@ class Stack {
         }
     }
 
+    const Point& point(Corner corner) const { return points_[corner]; }
+
     void add_face(std::vector<Corner> corners, std::string name) {
         faces_.push_back({{std::move(corners)}, std::move(name)});
     }
@@ -84,6 +87,18 @@ class Stack {
     std::vector<PolyhedronFace> faces_;
 };
 
+/// Whether OpenSCAD 2021 splits a side along the diagonal from a to d: where that is the shorter one seen
+/// from above, or `if_equal`.
+bool splits_from_a(const Stack& stack, const Quad& quad, bool if_equal) {
+    constexpr double equal = 1e-5;  // difference by mean
+    const auto length = [&](Corner p, Corner q) {
+        return (stack.point(q) - stack.point(p)).head<2>().norm();
+    };
+    const double from_a = length(quad.a, quad.d), from_b = length(quad.b, quad.c);
+    if (2 * std::abs(from_a - from_b) <= equal * (from_a + from_b)) return if_equal;
+    return from_a < from_b;
+}
+
 }  // namespace
 
 std::shared_ptr<const Shape> linear_extrude(const PlaneRegion& region, const LinearExtrusion& extrusion,
@@ -100,13 +115,16 @@ std::shared_ptr<const Shape> linear_extrude(const PlaneRegion& region, const Lin
             return Point(scale.x() * (c * p.x() - s * p.y()), scale.y() * (s * p.x() + c * p.y()), z);
         });
     }
+    const auto ends_flat = [&](std::size_t k) {
+        return k + 2 == stack.n_layers() && extrusion.scale.minCoeff() == 0;
+    };
     const bool is_flat = extrusion.twist == 0 && extrusion.scale.x() == extrusion.scale.y();
     for (std::size_t k = 0; k + 1 < stack.n_layers(); ++k)
         stack.for_each_side(k, k + 1, [&](const std::string& name, const Quad& quad, bool is_hole) {
             const auto [a, b, c, d] = quad;
             if (is_flat) {
                 stack.add_face({a, b, d, c}, name);
-            } else if ((extrusion.twist < 0) != is_hole) {
+            } else if (splits_from_a(stack, quad, (extrusion.twist <= 0) == is_hole) != ends_flat(k)) {
                 stack.add_face({a, b, d}, name);
                 stack.add_face({a, d, c}, name);
             } else {
@@ -115,8 +133,14 @@ std::shared_ptr<const Shape> linear_extrude(const PlaneRegion& region, const Lin
             }
         });
     stack.add_cap(0, false, "bottom");
-    stack.add_cap(stack.n_layers() - 1, true, "top");
-    return stack.solid(frame);
+    if (extrusion.scale.minCoeff() > 0) stack.add_cap(stack.n_layers() - 1, true, "top");
+    try {
+        return stack.solid(frame);
+    } catch (const InputError& error) {
+        if (extrusion.scale.minCoeff() > 0 || extrusion.scale.maxCoeff() == 0) throw;
+        throw InputError(fmt::format("the shape shrinks to a line, along which the solid does not close ({})",
+                                     error.what()));
+    }
 }
 
 std::shared_ptr<const Shape> rotate_extrude(const PlaneRegion& region, const RotateExtrusion& extrusion,

@@ -25,7 +25,8 @@ struct RotateExtrusion {
 };
 
 /// Faces `bottom`, `top` and, one for each edge of the region's loops, `side<i>`, counted from `first_side`.
-/// A side that is twisted is cut into triangles as OpenSCAD does. Throws InputError where that is no solid.
+/// A side that is twisted is cut into triangles as OpenSCAD 2021 does. Throws InputError where that is no
+/// solid.
 std::shared_ptr<const Shape> linear_extrude(const PlaneRegion& region, const LinearExtrusion& extrusion,
                                             std::size_t first_side, const Eigen::Affine3d& frame);
 

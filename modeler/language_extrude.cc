@@ -104,26 +104,36 @@ LinearExtrusion linear_extrusion(const Arguments& arguments) {
     else
         extrusion.scale.setConstant(arguments.number("scale", 1));
     if (!(extrusion.scale.minCoeff() >= 0)) throw arguments.error("scale", "a scale must not be negative");
-    if (arguments.has("slices")) {
-        extrusion.slices = arguments.count("slices", 1, max_fragments);
-    } else if (extrusion.twist != 0) {
-        const int fragments = openscad_fragments(extrusion.height, facet_settings(arguments));
-        extrusion.slices = std::max(2, static_cast<int>(std::abs(fragments * extrusion.twist / 360)));
-    }
+    if (arguments.has("slices")) extrusion.slices = arguments.count("slices", 1, max_fragments);
     return extrusion;
+}
+
+int usual_slices(const Arguments& arguments, const LinearExtrusion& extrusion, const Outline& outline) {
+    double reach = 0, shift = 0;
+    for (const PlaneRegion& region : outline)
+        for (const PlaneLoop& loop : region)
+            for (const Point2& p : loop) {
+                reach = std::max(reach, p.norm());
+                shift = std::max(shift, (p - p.cwiseProduct(extrusion.scale)).norm());
+            }
+    return at_node(arguments, [&] {
+        return openscad_slices(extrusion.height, extrusion.twist, extrusion.scale, reach, shift,
+                               facet_settings(arguments));
+    });
 }
 
 ShapeTree linear(const Node& node, const std::string& file, const Placement& placement) {
     const Arguments arguments(node, file, {"height", "center", "twist", "slices", "scale"});
-    const LinearExtrusion extrusion = linear_extrusion(arguments);
+    LinearExtrusion extrusion = linear_extrusion(arguments);
     const bool keeps_circles = extrusion.twist == 0 && extrusion.scale.x() == extrusion.scale.y();
     if (keeps_circles && has_round_circle(node.children, file, placement.facets))
         return RoundExtruder(arguments, file, placement, extrusion)
             .extrude(node.children, Eigen::Affine2d::Identity(), Operation::join);
-    return solids_of(arguments, outline_of(node.children, file),
-                     [&](const PlaneRegion& region, std::size_t first_side) {
-                         return linear_extrude(region, extrusion, first_side, placement.frame);
-                     });
+    const Outline outline = outline_of(node.children, file);
+    if (!arguments.has("slices")) extrusion.slices = usual_slices(arguments, extrusion, outline);
+    return solids_of(arguments, outline, [&](const PlaneRegion& region, std::size_t first_side) {
+        return linear_extrude(region, extrusion, first_side, placement.frame);
+    });
 }
 
 ShapeTree rotate(const Node& node, const std::string& file, const Placement& placement) {

@@ -11,6 +11,9 @@
 namespace maille::modeler {
 namespace {
 
+constexpr double finest_grid = 0.00000095367431640625;
+constexpr double least_angle_or_length = 0.01;
+
 double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
@@ -82,8 +85,6 @@ double cos_degrees(double angle) {
 }
 
 int openscad_fragments(double radius, const FacetSettings& settings) {
-    constexpr double finest_grid = 0.00000095367431640625;
-    constexpr double least_angle_or_length = 0.01;
     if (radius < finest_grid) return 3;
     const double by_angle = 360 / std::max(settings.fa, least_angle_or_length);
     const double by_length = radius * 2 * std::numbers::pi / std::max(settings.fs, least_angle_or_length);
@@ -93,6 +94,37 @@ int openscad_fragments(double radius, const FacetSettings& settings) {
         throw InputError(fmt::format("{} facets around are more than {}: lower $fn, or raise $fa or $fs",
                                      fragments, max_fragments));
     return static_cast<int>(fragments);
+}
+
+int openscad_slices(double height, double twist, const Eigen::Vector2d& scale, double reach, double shift,
+                    const FacetSettings& settings) {
+    const bool is_uniform = scale.x() == scale.y();
+    const double fs = std::max(settings.fs, least_angle_or_length);
+    double slices = 1;
+    if (twist != 0) {
+        const double turn = std::abs(radians(twist));
+        double way = reach * turn;  // of the farthest corner, seen from above: an arc or a piece of a spiral
+        if (is_uniform && scale.x() != 1) {
+            const auto spiral = [](double angle) {
+                return (angle * std::hypot(1, angle) + std::asinh(angle)) / 2;
+            };
+            const double end = turn * std::max(1.0, scale.x()) / std::abs(scale.x() - 1);
+            way = reach / end * (spiral(end) - spiral(end - turn));
+        }
+        const double by_angle = std::ceil(std::abs(twist) / std::max(settings.fa, least_angle_or_length));
+        const double by_length = std::ceil(std::hypot(way, height) / fs);
+        const double most = reach < finest_grid ? 1
+                            : settings.fn > 0   ? std::ceil(std::abs(twist) / 360 * settings.fn)
+                                                : std::min(by_angle, by_length);
+        slices = std::max({most, std::ceil(std::abs(twist) / 120), 1.0});
+    } else if (!is_uniform && shift >= finest_grid) {
+        slices = settings.fn > 0 ? std::floor(settings.fn) : std::ceil(std::hypot(shift, height) / fs);
+    }
+    if (slices > max_fragments)
+        throw InputError(
+            fmt::format("{} slices are more than {}: give 'slices', lower $fn, or raise $fa or $fs", slices,
+                        max_fragments));
+    return std::max(1, static_cast<int>(slices));
 }
 
 FacetedSolid openscad_sphere(double radius, int fragments) {

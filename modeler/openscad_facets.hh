@@ -33,6 +33,11 @@ inline constexpr int max_fragments = 2000;
 /// Throws InputError for more than `max_fragments`.
 int openscad_fragments(double radius, const FacetSettings& settings);
 
+/// In how many slices OpenSCAD 2021 extrudes a shape of which no other number is asked for. `reach` is the
+/// distance of its farthest corner from the origin, `shift` the longest way that the scale moves a corner.
+int openscad_slices(double height, double twist, const Eigen::Vector2d& scale, double reach, double shift,
+                    const FacetSettings& settings);
+
 /// The polyhedron that OpenSCAD 2021 makes of a sphere: rings of vertices on it, half a step away from the
 /// poles.
 FacetedSolid openscad_sphere(double radius, int fragments);

@@ -8,9 +8,11 @@
 #include <doctest/doctest.h>
 
 #include "modeler/model.hh"
+#include "modeler/openscad_facets.hh"
 #include "modeler/outline.hh"
 #include "modeler/tessellate.hh"
 #include "tests/modeler/surface_checks.hh"
+#include "volmesh/error.hh"
 
 using namespace maille;
 using namespace maille::modeler;
@@ -113,7 +115,7 @@ TEST_CASE("a twisted or narrowed extrusion has the prismatoid's volume") {
     // Between two layers the volume is h/6 (A1 + 4 Am + A2) exactly, Am the area half way, where each side
     // has a corner on its diagonal.
     const auto prismatoid = [](double angle, const Point2& scale, int slices, double height) {
-        const std::vector<Point2> square{{1, 0}, {3, 0}, {3, 1}, {1, 1}};
+        const std::vector<Point2> square{{1, .01}, {3, .01}, {3, 1.01}, {1, 1.01}};
         const auto image = [&](const Point2& p, double part) -> Point2 {
             const Eigen::Rotation2Dd turn(-angle * pi / 180 * part);
             return (Point2::Ones() + part * (scale - Point2::Ones())).cwiseProduct(turn * p);
@@ -136,13 +138,15 @@ TEST_CASE("a twisted or narrowed extrusion has the prismatoid's volume") {
                 low.push_back(at(i, k));
                 high.push_back(at(i, k + 1));
                 middle.push_back((at(i, k) + at(i, k + 1)) / 2);
-                middle.push_back((angle < 0 ? at(i, k) + at(i + 1, k + 1) : at(i + 1, k) + at(i, k + 1)) / 2);
+                // The shorter diagonal.
+                const Point2 a = at(i, k), b = at(i + 1, k), c = at(i, k + 1), d = at(i + 1, k + 1);
+                middle.push_back((a - d).norm() < (b - c).norm() ? (a + d) / 2 : (b + c) / 2);
             }
             sum += height / slices / 6 * (area(low) + 4 * area(middle) + area(high));
         }
         return sum;
     };
-    const std::string shape = "translate([1, 0]) square([2, 1]);";
+    const std::string shape = "translate([1, 0.01]) square([2, 1]);";  // no two diagonals are equal
     CHECK(volume("linear_extrude(height = 3, twist = 50, slices = 4) " + shape) ==
           doctest::Approx(prismatoid(50, {1, 1}, 4, 3)).epsilon(1e-12));
     CHECK(volume("linear_extrude(height = 3, twist = -70, slices = 5, scale = 0.5) " + shape) ==
@@ -153,6 +157,62 @@ TEST_CASE("a twisted or narrowed extrusion has the prismatoid's volume") {
           doctest::Approx(3.0 / 3 * 2 * (1 + .5 + .25)).epsilon(1e-12));
     CHECK(volume("linear_extrude(height = 3, center = true, scale = 0) square(2, center = true);") ==
           doctest::Approx(4).epsilon(1e-12));
+}
+
+TEST_CASE("twisted and unevenly scaled extrusions are those of OpenSCAD 2021.01") {
+    // Volumes of the .stl files that it writes, with six digits a coordinate.
+    const auto check = [](const std::string& arguments, const std::string& shape, double expected) {
+        CHECK(volume("linear_extrude(height = 10, " + arguments + ") " + shape) ==
+              doctest::Approx(expected).epsilon(2e-5));
+    };
+    const std::string aside = "translate([6, 0]) square([3, 2]);";
+    check("twist = 90, slices = 5", aside, 63.656411);
+    check("twist = -90, slices = 5", aside, 63.656411);
+    check("scale = [1, 2], slices = 5", aside, 90);
+    check("twist = 90, scale = [1, 2]", "translate([60, 0]) square([3, 2]);", 89.423828);
+    check("scale = [0.5, 3], center = true", "translate([3, 1]) circle(r = 4);", 680.818546);
+    check("twist = 120, center = true", "difference() { circle(r = 10); translate([2, 3]) square(4); }",
+          2959.834988);
+    check("twist = 200, scale = 0.3",
+          "difference() { translate([3, 1]) circle(r = 6); translate([2, 3]) square(4); }", 448.621006);
+    check("twist = -90, slices = 5",
+          "difference() { translate([-6, -6]) square(12); translate([1, 0]) square([3, 2]); }", 1501.178374);
+    CHECK(volume("linear_extrude(height = 5, twist = 720, $fn = 40) square(4, center = true);") ==
+          doctest::Approx(83.843287).epsilon(2e-5));
+    // A roof: the top is a line.
+    CHECK(volume("linear_extrude(height = 3, scale = [1, 0]) square([4, 2], center = true);") ==
+          doctest::Approx(12).epsilon(1e-14));
+}
+
+TEST_CASE("the number of slices is that of OpenSCAD 2021.01") {
+    const auto slices = [](double height, double twist, const Point2& scale, double reach, double shift,
+                           const FacetSettings& settings = {}) {
+        return openscad_slices(height, twist, scale, reach, shift, settings);
+    };
+    const double far = std::hypot(9, 2),
+                 near = std::sqrt(2);  // corners of the squares that it was tried with
+    for (const auto& [twist, n] :
+         {std::pair(100, 9), {95, 8}, {91, 8}, {40, 4}, {25, 3}, {-100, 9}, {370, 31}})
+        CHECK(slices(10, twist, {1, 1}, far, 0) == n);
+    CHECK(slices(3, 200, {1, 1}, far, 0) == 17);
+    CHECK(slices(3, 200, {1, 1}, far, 0, {.fn = 7}) == 4);
+    CHECK(slices(3, 200, {1, 1}, far, 0, {.fn = 20}) == 12);
+    CHECK(slices(40, 30, {2, 1}, far, 9) == 3);
+    CHECK(slices(40, 30, {2, 1}, far, 9, {.fn = 50}) == 5);
+    CHECK(slices(1, 360, {1, 1}, near, 0) == 5);
+    CHECK(slices(1, 360, {3, 3}, near, 0) == 4);
+    CHECK(slices(1, 360, {.5, .5}, near, 0) == 4);
+    CHECK(slices(1, 360, {0, 0}, near, 0) == 3);
+    CHECK(slices(1, 10, {0, 0}, near, 0) == 1);
+    CHECK(slices(1, 130, {1, 1}, near, 0, {.fn = 3}) == 2);
+    CHECK(slices(1, 1000, {2, 1}, near, 0) == 13);
+    CHECK(slices(10, 0, {2, 1}, far, 9) == 7);
+    CHECK(slices(10, 0, {1, 3}, far, 4) == 6);
+    CHECK(slices(10, 0, {.5, 2}, far, std::hypot(4.5, 2)) == 6);
+    CHECK(slices(10, 0, {2, 1}, far, 9, {.fn = 10}) == 10);
+    CHECK(slices(3, 0, {2, 1}, near, 1, {.fn = 2.5}) == 2);
+    CHECK(slices(10, 0, {2, 2}, far, 9, {.fn = 10}) == 1);
+    CHECK_THROWS_AS(slices(1e6, 0, {2, 1}, far, 9), InputError);
 }
 
 TEST_CASE("a turned shape has the volume of its rings") {
