@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "modeler/openscad_facets.hh"
+#include "modeler/shape_turned.hh"
 #include "modeler/shapes.hh"
 #include "volmesh/error.hh"
 
@@ -177,6 +178,19 @@ std::shared_ptr<const Shape> rotate_extrude(const PlaneRegion& region, const Rot
         stack.add_cap(n - 1, true, "end");
     }
     return stack.solid(frame);
+}
+
+std::shared_ptr<const Shape> rotate_extrude_round(const PlaneRegion& region, double angle,
+                                                  std::size_t first_side, const Eigen::Affine3d& frame) {
+    Profile profile;
+    std::size_t side = first_side;
+    for (const PlaneLoop& loop : region) {
+        auto& edges = profile.emplace_back();
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            edges.push_back(
+                {.from = loop[i], .to = loop[(i + 1) % loop.size()], .name = fmt::format("side{}", side++)});
+    }
+    return make_turned(std::move(profile), angle, frame);
 }
 
 }  // namespace maille::modeler

@@ -34,4 +34,8 @@ std::shared_ptr<const Shape> linear_extrude(const PlaneRegion& region, const Lin
 std::shared_ptr<const Shape> rotate_extrude(const PlaneRegion& region, const RotateExtrusion& extrusion,
                                             std::size_t first_side, const Eigen::Affine3d& frame);
 
+/// The same truly round: each edge sweeps an annulus or the side of a cylinder or cone.
+std::shared_ptr<const Shape> rotate_extrude_round(const PlaneRegion& region, double angle,
+                                                  std::size_t first_side, const Eigen::Affine3d& frame);
+
 }  // namespace maille::modeler

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@
 #include "modeler/language_outline.hh"
 #include "modeler/language_transforms.hh"
 #include "modeler/name_table.hh"
+#include "modeler/shape_frame.hh"
+#include "modeler/shape_turned.hh"
 #include "modeler/shapes.hh"
 
 namespace maille::modeler {
@@ -43,13 +46,25 @@ ShapeTree solids_of(const Arguments& arguments, const Outline& outline, const Ex
 }
 
 /// Extrudes each flat shape by itself, and combines the solids as the shapes are combined.
-class RoundExtruder {
+class PartwiseExtruder {
   public:
-    RoundExtruder(const Arguments& arguments, const std::string& file, const Placement& placement,
-                  const LinearExtrusion& extrusion)
-        : arguments_(arguments), file_(file), placement_(placement), extrusion_(extrusion) {}
+    /// Makes the solid of a circle of that radius under a map; null where there is no round one.
+    using CircleExtruder =
+        std::function<std::shared_ptr<const Shape>(double radius, const Eigen::Affine2d& map)>;
+    using RegionExtruder =
+        std::function<std::shared_ptr<const Shape>(const PlaneRegion& region, std::size_t first_side)>;
 
-    ShapeTree extrude(const std::vector<Node>& nodes, const Eigen::Affine2d& map, Operation operation) const {
+    PartwiseExtruder(const Arguments& arguments, const std::string& file, Facets facets,
+                     CircleExtruder circle, RegionExtruder region)
+        : arguments_(arguments),
+          file_(file),
+          facets_(facets),
+          circle_(std::move(circle)),
+          region_(std::move(region)) {}
+
+    ShapeTree extrude(const std::vector<Node>& nodes,
+                      const Eigen::Affine2d& map = Eigen::Affine2d::Identity(),
+                      Operation operation = Operation::join) const {
         ShapeTree tree{.operation = operation, .shape = nullptr};
         for (const Node& node : nodes)
             if (!node.ignored) tree.children.push_back(extrude(node, map));
@@ -58,41 +73,35 @@ class RoundExtruder {
 
   private:
     ShapeTree extrude(const Node& node, const Eigen::Affine2d& map) const {
-        if (is_round_circle(node, file_, placement_.facets)) {
+        if (is_round_circle(node, file_, facets_)) {
             const double r = radius_of_round(Arguments(node, file_, {"r", "d"}));
-            return {.operation = Operation::leaf,
-                    .shape = at_node(arguments_, [&] {
-                        return make_cylinder(extrusion_.height, r, r * extrusion_.scale.x(),
-                                             extrusion_.center, placement_.frame * in_space(map));
-                    })};
+            if (auto shape = at_node(arguments_, [&] { return circle_(r, map); }))
+                return {.operation = Operation::leaf, .shape = std::move(shape)};
         }
         if (const auto operation = find_flat_operation(node.name))
             return extrude(node.children, map, *operation);
-        if (find_transform(node.name))
-            return extrude(node.children, map * flat_map(node, file_), Operation::join);
-        return solids_of(arguments_, transformed(outline_of(node, file_), map),
-                         [&](const PlaneRegion& region, std::size_t first_side) {
-                             return linear_extrude(region, extrusion_, first_side, placement_.frame);
-                         });
-    }
-
-    /// What the flat map is to a solid that narrows towards the z axis: it narrows towards the same, so that
-    /// what the map moves away leans.
-    Eigen::Affine3d in_space(const Eigen::Affine2d& map) const {
-        const double bottom = extrusion_.center ? -extrusion_.height / 2 : 0;
-        const Point2 lean = map.translation() * (extrusion_.scale.x() - 1) / extrusion_.height;
-        Eigen::Affine3d result = Eigen::Affine3d::Identity();
-        result.linear().topLeftCorner<2, 2>() = map.linear();
-        result.linear().topRightCorner<2, 1>() = lean;
-        result.translation().head<2>() = map.translation() - bottom * lean;
-        return result;
+        if (find_transform(node.name)) return extrude(node.children, map * flat_map(node, file_));
+        return solids_of(arguments_, transformed(outline_of(node, file_), map), region_);
     }
 
     const Arguments& arguments_;  ///< of the extrusion
     const std::string& file_;
-    const Placement& placement_;
-    const LinearExtrusion& extrusion_;
+    Facets facets_;
+    CircleExtruder circle_;
+    RegionExtruder region_;
 };
+
+/// What the flat map is to a solid that narrows towards the z axis: it narrows towards the same, so that what
+/// the map moves away leans.
+Eigen::Affine3d leaning(const LinearExtrusion& extrusion, const Eigen::Affine2d& map) {
+    const double bottom = extrusion.center ? -extrusion.height / 2 : 0;
+    const Point2 lean = map.translation() * (extrusion.scale.x() - 1) / extrusion.height;
+    Eigen::Affine3d result = Eigen::Affine3d::Identity();
+    result.linear().topLeftCorner<2, 2>() = map.linear();
+    result.linear().topRightCorner<2, 1>() = lean;
+    result.translation().head<2>() = map.translation() - bottom * lean;
+    return result;
+}
 
 LinearExtrusion linear_extrusion(const Arguments& arguments) {
     LinearExtrusion extrusion;
@@ -125,28 +134,91 @@ int usual_slices(const Arguments& arguments, const LinearExtrusion& extrusion, c
 ShapeTree linear(const Node& node, const std::string& file, const Placement& placement) {
     const Arguments arguments(node, file, {"height", "center", "twist", "slices", "scale"});
     LinearExtrusion extrusion = linear_extrusion(arguments);
+    const auto extrude = [&](const PlaneRegion& region, std::size_t first_side) {
+        return linear_extrude(region, extrusion, first_side, placement.frame);
+    };
     const bool keeps_circles = extrusion.twist == 0 && extrusion.scale.x() == extrusion.scale.y();
-    if (keeps_circles && has_round_circle(node.children, file, placement.facets))
-        return RoundExtruder(arguments, file, placement, extrusion)
-            .extrude(node.children, Eigen::Affine2d::Identity(), Operation::join);
+    if (keeps_circles && has_round_circle(node.children, file, placement.facets)) {
+        const auto circle = [&](double r, const Eigen::Affine2d& map) {
+            return make_cylinder(extrusion.height, r, r * extrusion.scale.x(), extrusion.center,
+                                 placement.frame * leaning(extrusion, map));
+        };
+        return PartwiseExtruder(arguments, file, placement.facets, circle, extrude).extrude(node.children);
+    }
     const Outline outline = outline_of(node.children, file);
     if (!arguments.has("slices")) extrusion.slices = usual_slices(arguments, extrusion, outline);
-    return solids_of(arguments, outline, [&](const PlaneRegion& region, std::size_t first_side) {
-        return linear_extrude(region, extrusion, first_side, placement.frame);
-    });
+    return solids_of(arguments, outline, extrude);
+}
+
+/// Extends `reach`, distances from the axis with their sign, by those of all the shapes before they are
+/// combined.
+void extend_reach(Eigen::AlignedBox<double, 1>& reach, const std::vector<Node>& nodes,
+                  const std::string& file, const Eigen::Affine2d& map) {
+    const auto extend = [&](double x) { reach.extend(Eigen::Vector<double, 1>(x)); };
+    for (const Node& node : nodes) {
+        if (node.ignored) continue;
+        if (find_flat_operation(node.name)) {
+            extend_reach(reach, node.children, file, map);
+        } else if (find_transform(node.name)) {
+            extend_reach(reach, node.children, file, map * flat_map(node, file));
+        } else if (node.name == "circle") {
+            const double r = radius_of_round(Arguments(node, file, {"r", "d"}));
+            const double across = r * map.linear().row(0).norm();
+            extend(map.translation().x() - across);
+            extend(map.translation().x() + across);
+        } else {
+            for (const PlaneRegion& region : transformed(outline_of(node, file), map))
+                for (const Point2& p : region.front()) extend(p.x());
+        }
+    }
+}
+
+/// The whole circle as a profile.
+Profile circle_profile(const Point2& centre, double radius) {
+    const Point2 start = centre + radius * Point2::UnitX();
+    return {{{.from = start, .to = start, .name = "surface", .centre = centre}}};
+}
+
+ShapeTree rotate_round(const Arguments& arguments, const std::string& file, const Placement& placement,
+                       double angle) {
+    const std::vector<Node>& nodes = arguments.node().children;
+    const auto extrude = [&](const PlaneRegion& region, std::size_t first_side) {
+        return rotate_extrude_round(region, angle, first_side, placement.frame);
+    };
+    Eigen::AlignedBox<double, 1> reach;
+    extend_reach(reach, nodes, file, Eigen::Affine2d::Identity());
+    const bool on_one_side = reach.isEmpty() || reach.min()[0] >= 0 || reach.max()[0] <= 0;
+    if (!on_one_side || !has_round_circle(nodes, file, placement.facets))
+        return solids_of(arguments, outline_of(nodes, file), extrude);
+    const auto circle = [&](double r, const Eigen::Affine2d& map) -> std::shared_ptr<const Shape> {
+        Eigen::Affine3d in_space = Eigen::Affine3d::Identity();
+        in_space.linear().topLeftCorner<2, 2>() = map.linear();
+        const double scale = std::sqrt(std::abs(map.linear().determinant()));
+        in_space.linear()(2, 2) = scale;
+        const double radius = r * scale, major = std::abs(map.translation().x());
+        if (!is_similarity(in_space.linear()) || !(radius < major)) return nullptr;
+        if (angle == 360)
+            return make_torus(major, radius,
+                              placement.frame * Eigen::Translation3d(0, 0, map.translation().y()));
+        if (!is_similarity(placement.frame.linear())) return nullptr;
+        return make_turned(circle_profile(map.translation(), radius), angle, placement.frame);
+    };
+    return PartwiseExtruder(arguments, file, placement.facets, circle, extrude).extrude(nodes);
 }
 
 ShapeTree rotate(const Node& node, const std::string& file, const Placement& placement) {
     const Arguments arguments(node, file, {"angle"});
-    const double angle = std::clamp(arguments.number("angle", 360), -360.0, 360.0);
-    if (angle == 0) throw arguments.error("angle", "the angle must not be 0");
+    const double given = std::clamp(arguments.number("angle", 360), -360.0, 360.0);
+    if (given == 0) throw arguments.error("angle", "the angle must not be 0");
+    const double angle = std::abs(given) == 360 ? 360 : given;
+    const FacetSettings settings = facet_settings(arguments);
+    if (!keeps_facets(placement.facets, settings)) return rotate_round(arguments, file, placement, angle);
     const Outline outline = outline_of(node.children, file);
     double reach = 0;
     for (const PlaneRegion& region : outline)
         for (const Point2& p : region.front()) reach = std::max(reach, std::abs(p.x()));
-    const double fragments = openscad_fragments(reach, facet_settings(arguments)) * std::abs(angle) / 360;
-    const RotateExtrusion extrusion{.angle = std::abs(angle) == 360 ? 360 : angle,
-                                    .fragments = std::max(1, static_cast<int>(fragments))};
+    const double fragments = openscad_fragments(reach, settings) * std::abs(angle) / 360;
+    const RotateExtrusion extrusion{.angle = angle, .fragments = std::max(1, static_cast<int>(fragments))};
     return solids_of(arguments, outline, [&](const PlaneRegion& region, std::size_t first_side) {
         return rotate_extrude(region, extrusion, first_side, placement.frame);
     });

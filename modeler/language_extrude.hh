@@ -20,9 +20,9 @@ using Extruder = ShapeTree (*)(const Node&, const std::string& file, const Place
 
 /// The function that makes the solid of `linear_extrude` or `rotate_extrude`; null for another name.
 ///
-/// Circles that are to be round become true cylinders and cones, since an extrusion of a union, difference
-/// or intersection is that of the extrusions; not so in an `offset` or `hull`, under a twist or a scale that
-/// differs in x and y, and in `rotate_extrude`, which is a polyhedron.
+/// Circles that are to be round become true cylinders and cones, or tori, since an extrusion of a union,
+/// difference or intersection is that of the extrusions; not so in an `offset` or `hull`, under a twist or a
+/// scale that differs in x and y, and where one of the shapes to turn reaches across the axis.
 Extruder find_extruder(std::string_view name);
 std::vector<std::string_view> extruder_names();
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "modeler/close_values.hh"
 #include "modeler/shape_frame.hh"
 #include "modeler/shape_polyhedron.hh"
 #include "modeler/shape_polyhedron_sense.hh"
@@ -67,17 +68,11 @@ void merge_close_coordinates(std::vector<Point>& points) {
     double scale = 0;
     for (const Point& p : points) scale = std::max(scale, p.cwiseAbs().maxCoeff());
     const double tolerance = 8 * std::numeric_limits<double>::epsilon() * scale;
-    std::vector<std::uint32_t> order(points.size());
+    std::vector<double*> values;
     for (int axis = 0; axis < 3; ++axis) {
-        std::iota(order.begin(), order.end(), 0u);
-        std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return points[i][axis]; });
-        for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-            double value = points[order[begin]][axis];
-            const double last = value + tolerance;
-            for (end = begin; end < order.size() && points[order[end]][axis] <= last; ++end)
-                if (std::abs(points[order[end]][axis]) < std::abs(value)) value = points[order[end]][axis];
-            for (std::size_t k = begin; k < end; ++k) points[order[k]][axis] = value;
-        }
+        values.clear();
+        for (Point& p : points) values.push_back(&p[axis]);
+        merge_close_values(values, tolerance);
     }
 }
 

@@ -25,6 +25,8 @@ void visit(const Shape& shape, const Function& function) {
         function(*torus);
     else if (const auto* cone = dynamic_cast<const Cone*>(&shape))
         function(*cone);
+    else if (const auto* turned = dynamic_cast<const Turned*>(&shape))
+        function(*turned);
     else if (const auto* polyhedron = dynamic_cast<const Polyhedron*>(&shape))
         function(*polyhedron);
     else

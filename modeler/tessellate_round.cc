@@ -5,17 +5,13 @@
 #include <numbers>
 
 #include "modeler/shape_frame.hh"
-#include "modeler/tessellate_seed.hh"
+#include "modeler/tessellate_rows.hh"
 
 namespace maille::modeler {
 namespace {
 
 int to_count(double wanted, int least) {
     return std::max(least, static_cast<int>(std::lround(wanted)));
-}
-
-bool is_mirror(const Eigen::Affine3d& map) {
-    return map.linear().determinant() < 0;
 }
 
 struct Icosahedron {
@@ -49,81 +45,6 @@ Icosahedron make_icosahedron() {
     return result;
 }
 
-/// A row of points around the axis of a cone: `count` of them, the first `offset` half steps on.
-struct Row {
-    std::uint32_t first = 0;
-    int count = 0;
-    int offset = 0;
-
-    double share(int k) const { return (2 * k + offset) / (2.0 * count); }
-    std::uint32_t at(int k) const { return first + static_cast<std::uint32_t>(k % count); }
-};
-
-/// The band between two rows: always the shorter of the two possible next edges.
-void stitch(SurfaceSeed& seed, const Row& lower, const Row& upper, std::uint32_t surface, bool mirrored) {
-    // A row of one point is an apex: nothing runs along it.
-    const int lower_edges = lower.count > 1 ? lower.count : 0,
-              upper_edges = upper.count > 1 ? upper.count : 0;
-    int i = 0, j = 0;
-    while (i < lower_edges || j < upper_edges) {
-        const bool along_lower =
-            j == upper_edges ||
-            (i < lower_edges && lower.share(i + 1) - upper.share(j) <= upper.share(j + 1) - lower.share(i));
-        if (along_lower) {
-            seed.add_triangle({lower.at(i), lower.at(i + 1), upper.at(j)}, surface, mirrored);
-            ++i;
-        } else {
-            seed.add_triangle({lower.at(i), upper.at(j + 1), upper.at(j)}, surface, mirrored);
-            ++j;
-        }
-    }
-}
-
-/// How points are spread around the cross-sections of a cone: evenly on a circle, by the wanted sizes on an
-/// ellipse.
-class Circumference {
-  public:
-    Circumference(const Cone& cone, const Sizing& sizing, double radius)
-        : x_(cone.map().linear().col(0)),
-          y_(cone.map().linear().col(1)),
-          sizing_(sizing),
-          length_{0},
-          steps_{0} {
-        is_circle_ = std::abs(x_.squaredNorm() - y_.squaredNorm()) < 1e-13 * x_.squaredNorm() &&
-                     std::abs(x_.dot(y_)) < 1e-13 * x_.squaredNorm();
-        for (int i = 0; i < samples; ++i) {
-            const Eigen::Vector2d u = unit_circle(2 * i + 1, 2 * samples);
-            const double speed = (u.x() * y_ - u.y() * x_).norm();
-            const double curvature = x_.cross(y_).norm() / (radius * std::pow(speed, 3));
-            const double step = radius * speed * 2 * std::numbers::pi / samples;
-            length_[i + 1] = length_[i] + step;
-            steps_[i + 1] = steps_[i] + step / sizing.for_curvature(curvature);
-        }
-    }
-
-    double length() const { return length_.back(); }
-    /// Number of edges that the sizes ask for.
-    double edges() const { return steps_.back(); }
-
-    /// Direction of the point k of n, in the reference plane.
-    Eigen::Vector2d direction(int k, int n) const {
-        if (is_circle_) return unit_circle(k, n);
-        const double wanted = edges() * (k % n) / n;
-        const auto after = std::ranges::upper_bound(steps_, wanted);
-        const auto i = std::clamp<std::ptrdiff_t>(after - steps_.begin() - 1, 0, samples - 1);
-        const double part = (wanted - steps_[i]) / (steps_[i + 1] - steps_[i]);
-        const double angle = 2 * std::numbers::pi * (static_cast<double>(i) + part) / samples;
-        return {std::cos(angle), std::sin(angle)};
-    }
-
-  private:
-    static constexpr int samples = 720;
-    Point x_, y_;
-    const Sizing& sizing_;
-    bool is_circle_;
-    std::array<double, samples + 1> length_, steps_;
-};
-
 /// Mean length of the generators.
 double slant_of(const Cone& cone) {
     double slant = 0;
@@ -134,20 +55,12 @@ double slant_of(const Cone& cone) {
     return slant;
 }
 
-/// Number of edges of a sharp curve: a multiple of four, for symmetry's sake; more of them around a thin
-/// disc.
-int rim_count(const Circumference& rim, double slant) {
-    const double least = rim.length() / std::max(8.0, rim.edges()) / 8;
-    const double edges = std::max(rim.edges(), rim.length() / std::max(slant, least));
-    return 4 * doubling_count(edges / 4, 2);
-}
-
 /// Heights of the rows, from 0 to 1: closer where the rows are shorter of edge.
 std::vector<double> row_heights(const Cone& cone, const Sizing& sizing) {
     constexpr int samples = 256;
     std::vector<double> wanted(samples);
     for (int i = 0; i < samples; ++i) {
-        const Circumference row(cone, sizing, cone.radius((i + 0.5) / samples));
+        const Circumference row(cone.map(), sizing, cone.radius((i + 0.5) / samples));
         wanted[i] = row.length() / row.edges() * std::numbers::sqrt3 / 2;
     }
     return graded_places(wanted, slant_of(cone));
@@ -229,7 +142,7 @@ SurfaceSeed seed_surface(const Torus& shape, const Sizing& sizing) {
 }
 
 SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing) {
-    const Circumference widest(shape, sizing, 1);
+    const Circumference widest(shape.map(), sizing, 1);
     const bool is_cylinder = shape.radius(0) == shape.radius(1);
     const bool mirrored = is_mirror(shape.map());
     const double slant = slant_of(shape);
@@ -246,7 +159,7 @@ SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing) {
         const bool is_end = k == 0 || k + 1 == heights.size();
         Row row{.first = static_cast<std::uint32_t>(seed.points.size()), .count = 1, .offset = 0};
         if (radius > 0) {
-            const Circumference circumference(shape, sizing, radius);
+            const Circumference circumference(shape.map(), sizing, radius);
             row.count =
                 is_cylinder || is_end ? rim_count(circumference, slant) : to_count(circumference.edges(), 6);
             row.offset = static_cast<int>(k % 2);

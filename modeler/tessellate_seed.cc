@@ -80,6 +80,18 @@ double thinnest_radius(const Polyhedron&) {
     return std::numeric_limits<double>::infinity();
 }
 
+double thinnest_radius(const Turned& shape) {
+    double thinnest = std::numeric_limits<double>::infinity();
+    for (const auto& loop : shape.profile())
+        for (const ProfileEdge& edge : loop) {
+            if (edge.on_axis()) continue;
+            const double smaller = std::min(edge.from.x(), edge.to.x());
+            const double larger = std::max(edge.from.x(), edge.to.x());
+            thinnest = std::min(thinnest, edge.centre ? edge.radius() : smaller > 0 ? smaller : 2 * larger);
+        }
+    return thinnest * smallest_stretch(shape.map().linear());
+}
+
 std::vector<double> graded_places(std::vector<double> wanted, double way) {
     constexpr double growth = 0.5;  // of a step, per way
     const std::size_t parts = wanted.size();

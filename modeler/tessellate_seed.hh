@@ -6,6 +6,7 @@
 #include "modeler/shape_ellipsoid.hh"
 #include "modeler/shape_polyhedron.hh"
 #include "modeler/shape_torus.hh"
+#include "modeler/shape_turned.hh"
 #include "modeler/tessellate.hh"
 #include "modeler/tessellate_polygon.hh"
 
@@ -53,6 +54,7 @@ double thinnest_radius(const Ellipsoid& shape);
 double thinnest_radius(const Torus& shape);
 double thinnest_radius(const Cone& shape);
 double thinnest_radius(const Polyhedron& shape);
+double thinnest_radius(const Turned& shape);
 
 /// Places on a way of length 1, the first 0 and the last 1, at about the steps wanted along it: `wanted`
 /// holds them at the middles of equal parts, in the same unit as `way`. Steps change gradually, and are
@@ -63,6 +65,7 @@ SurfaceSeed seed_surface(const Ellipsoid& shape, const Sizing& sizing);
 SurfaceSeed seed_surface(const Torus& shape, const Sizing& sizing);
 SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing);
 SurfaceSeed seed_surface(const Polyhedron& shape, const Sizing& sizing);
+SurfaceSeed seed_surface(const Turned& shape, const Sizing& sizing);
 
 /// Covers a planar face, whose boundary is the loops of points of the seed, with triangles of about that
 /// size.
