@@ -241,6 +241,18 @@ class Page(MailleCase):
         self.assertIn(f"; {report['critical']['cells']:,} elements chosen", self.browser.text("#status"))
         self.assertNotIn("of them in this page", self.browser.text("#status"))
 
+    def test_meshes_without_extent(self):
+        tet = "1 4 0\n1 1 2 3 4\n"
+        for name, nodes, cells in (("flat", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n", tet),
+                                   ("point", "4 3 0 0\n1 7 7 7\n2 7 7 7\n3 7 7 7\n4 7 7 7\n", tet),
+                                   ("none", "0 3 0 0\n", "0 4 0\n")):
+            (self.folder / f"{name}.node").write_text(nodes)
+            (self.folder / f"{name}.ele").write_text(cells)
+            self.maille("quality", f"{name}.node", "--size", 1, "--html", f"{name}.html")
+            self.browser.open(self.folder / f"{name}.html")
+            self.assertEqual(self.faces_drawn(), 0 if name == "none" else 4)
+            self.assertEqual(self.browser.complaints(), [], name)
+
     def test_names_do_no_harm(self):
         self.mesh('name("<!--<script><i>&amp;") cube(1);', 0.6, "a<b>.vtu")
         self.maille("quality", "a<b>.vtu", "--html", "part.html")

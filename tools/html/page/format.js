@@ -2,17 +2,20 @@
 
 /** A value, with as many digits as it is worth. */
 export function figure(x) {
-  if (x === 0 || Math.abs(x) < 1e-14) return '0';
+  if (x === null) return '\u2013';
   const size = Math.abs(x);
+  if (size === 0) return '0';
   if (size < 1e-3 || size >= 1e6) return x.toExponential(2).replace('e+', 'e');
   const rounded = Number(x.toPrecision(4));
   return size < 1e4 ? String(rounded) : count(rounded);
 }
 
-/** A coordinate in something of that size: to four digits of the size. */
+/** A coordinate in something of that size: to a ten-thousandth of it. */
 export function coordinate(x, size) {
   const unit = 10 ** (Math.floor(Math.log10(size || 1)) - 4);
-  return figure(Math.round(x / unit) * unit);
+  const rounded = Math.round(x / unit) * unit;
+  const digits = Math.ceil(Math.log10(Math.abs(rounded) / unit)) + 1;
+  return String(Number(rounded.toPrecision(Math.min(15, Math.max(1, digits)))));
 }
 
 export function count(n) {
@@ -24,7 +27,9 @@ export function percent(x) {
   return `${Math.floor(x * 100) / 100} %`;
 }
 
-export function withUnit(x, unit) {
+/** A measure's value; what is no more than rounding of nothing is 0. */
+export function withUnit(value, unit) {
+  const x = Math.abs(value) < 1e-14 ? 0 : value;
   if (unit === 'degrees') return `${figure(x)}\u00b0`;
   return unit === 'steradians' ? `${figure(x)} sr` : figure(x);
 }
