@@ -22,17 +22,44 @@ fragment() {
     name("box") material("steel") cube([2.2, 2, 1.9]);
 }
 """
-# How many colours the canvas has; asked for in the frame that has just been drawn.
+# The colours of the canvas, and how many pixels have each; asked for in the frame that has just been drawn.
 COLORS_OF_CANVAS = """new Promise((done) => {
     const canvas = document.getElementById('canvas');
-    canvas.dispatchEvent(new KeyboardEvent('keydown', {key: '+'}));
+    canvas.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowLeft'}));
     requestAnimationFrame(() => {
         const copy = Object.assign(document.createElement('canvas'), {width: canvas.width, height: canvas.height});
         const pen = copy.getContext('2d');
         pen.drawImage(canvas, 0, 0);
-        done(new Set(new Uint32Array(pen.getImageData(0, 0, copy.width, copy.height).data.buffer)).size);
+        const counts = {};
+        for (const color of new Uint32Array(pen.getImageData(0, 0, copy.width, copy.height).data.buffer))
+            counts[color] = (counts[color] ?? 0) + 1;
+        done(counts);
     });
 })"""
+BLUE, ORANGE = 0xffa7794e, 0xff2b8ef2  # as red, green, blue, alpha lie in memory
+SETS_OF_EDGES = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+0 1 "load"
+1 2 "rim"
+$EndPhysicalNames
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+$EndNodes
+$Elements
+4
+1 15 2 1 1 4
+2 1 2 2 1 1 2
+3 1 2 2 1 2 3
+4 4 2 3 1 1 2 3 4
+$EndElements
+"""
 
 
 class Tets:
@@ -86,7 +113,7 @@ class Page(MailleCase):
     def test_the_mesh_is_drawn(self):
         tets, report = self.open()
         self.assertEqual(self.faces_drawn(), tets.shell(np.full(len(tets.cells), True)))
-        self.assertGreater(self.browser.js(COLORS_OF_CANVAS), 500)
+        self.assertGreater(len(self.browser.js(COLORS_OF_CANVAS)), 500)
         self.assertEqual(self.browser.js("document.title"), "part.vtu - mesh quality")
         self.assertIn(f"{report['cells']:,} elements", self.browser.text("#facts"))
         self.assertIn("carries every element", self.browser.text("#left-out"))
@@ -179,6 +206,15 @@ class Page(MailleCase):
         self.browser.click("[data-set='box/x-'] button")
         self.browser.click("[data-set='box/z+'] input")
         self.assertEqual(self.faces_drawn(), tets.shell(np.full(len(tets.cells), True)) - sizes["box/z+"])
+
+    def test_sets_of_vertices_and_edges_are_shown(self):
+        (self.folder / "part.msh").write_text(SETS_OF_EDGES)
+        self.maille("quality", "part.msh", "--html", "part.html")
+        self.browser.open(self.folder / "part.html")
+        for name, color in (("load", BLUE), ("rim", ORANGE)):
+            self.assertEqual(self.browser.js(COLORS_OF_CANVAS).get(str(color), 0), 0)
+            self.browser.click(f"[data-set={name}] input")
+            self.assertGreater(self.browser.js(COLORS_OF_CANVAS).get(str(color), 0), 20)
 
     def test_an_element_is_told(self):
         tets, report = self.open("--size", "0.4")

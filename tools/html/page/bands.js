@@ -26,7 +26,7 @@ export function makeBands(parent, mesh, report, state) {
             title: isOutside ? 'Show the elements outside' : 'Show these elements'};
   });
   const add = (name, {cells, percent: part}) =>
-    rows.push({name, text: `${count(cells)}, ${percent(part)}`, cells, isBad: cells > 0, title: 'Show these elements'});
+    rows.push({name, text: cells ? `${count(cells)}, ${percent(part)}` : 'none', cells, isBad: cells > 0, title: 'Show these elements'});
   add('bad shape', report.bad_shape);
   if (report.critical) add('critical', report.critical);
   for (const {name, text, cells, isBad, title} of rows) {

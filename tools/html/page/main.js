@@ -131,6 +131,7 @@ async function start() {
   try {
     view = new View(byId('canvas'), mesh);
   } catch (error) {
+    byId('stage').classList.add('off');
     tell(`The mesh cannot be drawn: ${error.message}.`);
   }
   chooseTheme(view);

@@ -39,6 +39,27 @@ void main() {
   gl_FragColor = vec4(tint, mix(0.2, 0.05, facing));
 }`;
 
+const POINT_VERTEX = `
+uniform float size;
+void main() {
+  gl_PointSize = size;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+const POINT = `
+uniform vec3 tint;
+void main() {
+  float away = length(gl_PointCoord - 0.5);
+  if (away > 0.5) discard;
+  gl_FragColor = vec4(away > 0.36 ? tint * 0.3 : tint, 1.0);
+}`;
+
+/** Round marks, of a size in pixels. */
+export function pointMaterial(tint, size) {
+  return new ShaderMaterial({vertexShader: POINT_VERTEX, fragmentShader: POINT,
+                             uniforms: {tint: {value: tint}, size: {value: size * window.devicePixelRatio}}});
+}
+
 export function solidMaterial() {
   return new ShaderMaterial({vertexShader: VERTEX, fragmentShader: SOLID, side: DoubleSide, uniforms: {edges: {value: 0.8}},
                              polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1});

@@ -2,12 +2,15 @@
 
 import {
   BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh as Triangles,
-  MeshBasicMaterial, PerspectiveCamera, Points, PointsMaterial, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+  MeshBasicMaterial, PerspectiveCamera, Points, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from 'three/build/three.module.js';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
+import {LineSegments2 as WideLines} from 'three/examples/jsm/lines/LineSegments2.js';
+import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 
 import {setColor} from './colors.js';
-import {ghostMaterial, solidMaterial} from './materials.js';
+import {ghostMaterial, pointMaterial, solidMaterial} from './materials.js';
 import {EDGE_ENDS} from './mesh.js';
 
 const START = new Vector3(1.1, -1.9, 1.2);
@@ -35,12 +38,12 @@ export class View {
     this.ghost = this.add(new Triangles(new BufferGeometry(), ghostMaterial()));
     this.solid = this.add(new Triangles(new BufferGeometry(), solidMaterial()));
     this.creases = this.add(new LineSegments(new BufferGeometry(), new LineBasicMaterial({transparent: true, opacity: 0.7})));
-    this.focus = this.add(new LineSegments(new BufferGeometry(), new LineBasicMaterial({depthTest: false, transparent: true})));
+    this.focus = this.add(new WideLines(new LineSegmentsGeometry(), new LineMaterial({linewidth: 2.5, depthTest: false, transparent: true})));
     this.focus.renderOrder = 2;
     this.focusFaces = this.add(new Triangles(new BufferGeometry(), new MeshBasicMaterial(
       {depthTest: false, transparent: true, opacity: 0.25, side: DoubleSide})));
     this.focusFaces.renderOrder = 1;
-    this.marks = mesh.sets.filter((set) => set.vertices).map((set) => this.addSet(set));
+    this.marks = mesh.sets.filter((set) => set.vertices?.length).map((set) => this.addSet(set));
     this.setPositions(this.creases, mesh.creases());
     this.setPositions(this.ghost, this.corners(mesh.shell(mesh.mask(() => true), false).filter((hf) => mesh.isBoundary(hf))));
     this.shown = [];
@@ -57,8 +60,8 @@ export class View {
   addSet(set) {
     const color = new Color(...setColor(set.index).map((x) => x / 255));
     const object = set.kind === 'vertex'
-      ? new Points(new BufferGeometry(), new PointsMaterial({color, size: 7, sizeAttenuation: false}))
-      : new LineSegments(new BufferGeometry(), new LineBasicMaterial({color}));
+      ? new Points(new BufferGeometry(), pointMaterial(color, 11))
+      : new WideLines(new LineSegmentsGeometry(), new LineMaterial({color: color.getHex(), linewidth: 4}));
     this.setPositions(object, set.vertices);
     object.userData.set = set.index;
     return this.add(object);
@@ -75,6 +78,11 @@ export class View {
     for (let i = 0; i < vertices.length; ++i)
       for (let k = 0; k < 3; ++k) positions[3 * i + k] = (this.mesh.points[3 * vertices[i] + k] - this.middle[k]) * this.scale;
     object.geometry.dispose();
+    if (object instanceof WideLines) {
+      object.visible = vertices.length > 0;
+      if (object.visible) object.geometry = new LineSegmentsGeometry().setPositions(positions);
+      return;
+    }
     object.geometry = new BufferGeometry();
     object.geometry.setAttribute('position', new BufferAttribute(positions, 3));
   }
@@ -128,8 +136,9 @@ export class View {
   /** Comes near the cell, in a short flight. */
   flyTo(cell) {
     const target = this.placeOf(cell);
-    const size = new Vector3(...this.focus.geometry.attributes.position.array.slice(0, 3)).distanceTo(target);
-    const away = this.camera.position.clone().sub(this.controls.target).setLength(Math.max(25 * size, 0.02));
+    const size = new Vector3(...this.focusFaces.geometry.attributes.position.array.slice(0, 3)).distanceTo(target);
+    const away = this.camera.position.clone().sub(this.controls.target);
+    away.setLength(Math.min(Math.max(25 * size, 0.02), away.length()));
     this.move(target, target.clone().add(away));
   }
 
@@ -202,6 +211,7 @@ export class View {
     // A narrow window sees the mesh from farther.
     this.camera.fov = this.camera.aspect < 1 ? 30 / this.camera.aspect : 30;
     this.camera.updateProjectionMatrix();
+    for (const lines of [this.focus, ...this.marks]) lines.material.resolution?.set(clientWidth, clientHeight);
     this.draw();
   }
 
