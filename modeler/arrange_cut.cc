@@ -1,7 +1,6 @@
 #include "modeler/arrange_cut.hh"
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -12,7 +11,9 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "modeler/arrange_lines.hh"
 #include "modeler/arrange_scene.hh"
+#include "modeler/arrange_union_find.hh"
 
 namespace maille::modeler::detail {
 
@@ -28,86 +29,104 @@ using FaceBase =
                                               CGAL::Constrained_triangulation_face_base_2<Exact>>;
 using Triangulation =
     CGAL::Constrained_triangulation_2<Exact, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                      CGAL::Exact_intersections_tag>;
-using Point2 = Exact::Point_2;
+                                      CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using Face = Triangulation::Face_handle;
 
-/// A facet in the plane's image.
-struct FlatFacet {
+/// A facet whose outline runs along an edge.
+struct Rim {
     std::uint32_t facet;
-    int side;                       ///< 1 if it runs counter-clockwise
-    std::array<Point2, 3> corners;  ///< counter-clockwise
-    CGAL::Bbox_2 box;
+    int side;              ///< 1 if the facet looks along the plane's normal, else -1
+    bool is_left_of_rise;  ///< whether it lies on the left on the way from the lower end to the other
 };
+
+/// What a part is covered by. Facets that a dissolved edge joins count as one.
+using Covers = std::vector<std::pair<std::uint32_t, int>>;
 
 class PlaneCutter {
   public:
-    PlaneCutter(const FacetComplex& complex, const ExactPositions& positions,
+    PlaneCutter(const FacetComplex& complex, const ExactPositions& positions, const Contacts& contacts,
                 std::span<const std::uint32_t> facets, PointRegistry& registry)
         : complex_(complex),
           positions_(positions),
+          contacts_(contacts),
           facets_(facets),
-          registry_(registry),
-          projection_(corner(facets[0], 0), corner(facets[0], 1), corner(facets[0], 2)) {}
+          projection_(corner(facets[0], 0), corner(facets[0], 1), corner(facets[0], 2)),
+          lines_(positions, projection_, supporting_plane(), registry) {}
 
-    void insert_facets(std::span<const std::uint64_t> dissolved) {
-        for (const auto f : facets_) {
-            const auto& v = complex_.facets[f].vertices;
-            for (const auto p : v) vertex(p);
+    void add_edges(std::span<const std::uint64_t> dissolved) {
+        std::vector<int> sides;
+        for (const auto f : facets_) sides.push_back(side_of(f));
+        std::vector<std::uint64_t> joints;
+        const std::vector<std::uint32_t> face_of = join_facets(dissolved, sides, joints);
+        for (std::size_t i = 0; i < facets_.size(); ++i) {
+            const auto& v = complex_.facets[facets_[i]].vertices;
+            const int side = sides[i];
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto a = v[k], b = v[(k + 1) % 3];
-                if (!std::ranges::binary_search(dissolved, edge_key(a, b))) insert({a, b});
+                corners_.push_back(a);
+                if (std::ranges::binary_search(joints, edge_key(a, b))) continue;
+                const auto line = lines_.add(a, b);
+                if (line == rims_of_line_.size()) {
+                    rims_of_line_.emplace_back();
+                    for (const auto& [edge, point] : contacts_.points_at(edge_key(a, b)))
+                        lines_.put(line, point);
+                }
+                rims_of_line_[line].push_back({facets_[face_of[i]], side, (side == 1) == (a < b)});
             }
         }
     }
 
-    void insert(const Contacts::Segment& segment) {
-        const auto a = vertex(segment[0]), b = vertex(segment[1]);
-        if (a != b) triangulation_.insert_constraint(a, b);
+    void add_contacts() {
+        const auto n_edges = lines_.size();
+        for (const auto f : facets_)
+            for (const auto& contact : contacts_.segments[f]) {
+                if (contact.carrier != 0) {
+                    const auto line = lines_.find(contact.carrier);
+                    if (line < n_edges) {
+                        for (const auto p : contact.ends) lines_.put(line, p);
+                        continue;
+                    }
+                }
+                if (contact.ends[0] == contact.ends[1])
+                    corners_.push_back(contact.ends[0]);
+                else
+                    lines_.add(contact.ends[0], contact.ends[1]);
+            }
     }
 
-    /// Numbers the points in which segments cross.
-    void register_crossings() {
-        std::optional<ExactPlane> plane;
-        for (const auto v : triangulation_.finite_vertex_handles()) {
-            if (v->info().value != none) continue;
-            if (!plane) plane = supporting_plane();
-            v->info().value = registry_.add(projection_.lift(v->point(), *plane));
+    void triangulate() {
+        lines_.cut();
+        for (const auto p : corners_) vertex(p);
+        for (std::uint32_t line = 0; line < lines_.size(); ++line) {
+            const auto points = lines_.points(line);
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                const auto a = points[i], b = points[i + 1];
+                triangulation_.insert_constraint(vertex(a), vertex(b));
+                if (line >= rims_of_line_.size()) continue;
+                auto& rims = rims_[edge_key(a, b)];
+                // The line itself rises from its first point to its last.
+                for (Rim rim : rims_of_line_[line]) {
+                    rim.is_left_of_rise = rim.is_left_of_rise == (a < b);
+                    rims.push_back(rim);
+                }
+            }
         }
     }
 
     PlaneCut parts() {
         PlaneCut cut{projection_, {}};
-        const std::vector<FlatFacet> flat = flat_facets();
-        for (const auto start : triangulation_.finite_face_handles()) {
-            if (start->info().value != none) continue;
-            PlaneCut::Part part;
-            part.triangles = flood(start, static_cast<std::uint32_t>(cut.parts.size()));
-            part.facets =
-                flat.size() == 1 ? std::vector{std::pair(flat[0].facet, 1)} : facets_at(start, flat);
-            cut.parts.push_back(std::move(part));
-        }
+        // The first part is what lies around all facets.
+        cut.parts.push_back({{}, flood(triangulation_.infinite_face())});
+        for (const auto start : triangulation_.finite_face_handles())
+            if (start->info().value == none) cut.parts.push_back({{}, flood(start)});
+        cover(cut.parts);
         std::erase_if(cut.parts, [](const PlaneCut::Part& part) { return part.facets.empty(); });
         return cut;
     }
 
   private:
-    /// Where to start looking for the place of a point.
-    Triangulation::Face_handle hint() const {
-        return latest_ == Triangulation::Vertex_handle() ? Triangulation::Face_handle() : latest_->face();
-    }
-
     const ExactPoint& corner(std::uint32_t facet, std::size_t k) const {
         return positions_.points[complex_.facets[facet].vertices[k]];
-    }
-
-    Triangulation::Vertex_handle vertex(std::uint32_t point) {
-        const auto [at, is_new] = vertices_.try_emplace(point);
-        if (is_new) {
-            at->second = triangulation_.insert(projection_(registry_[point]), hint());
-            at->second->info().value = point;
-            latest_ = at->second;
-        }
-        return at->second;
     }
 
     ExactPlane supporting_plane() const {
@@ -116,20 +135,65 @@ class PlaneCutter {
         return {corner(facets_[0], 0), corner(facets_[0], 1), corner(facets_[0], 2)};
     }
 
-    /// The triangles that are reached without crossing a segment.
-    std::vector<std::array<std::uint32_t, 3>> flood(Triangulation::Face_handle start, std::uint32_t number) {
+    /// 1 where the facet looks along the plane's normal, else -1.
+    int side_of(std::uint32_t facet) {
+        if (facet == facets_[0]) return 1;
+        const auto& [a, b, c] = complex_.facets[facet].vertices;
+        return CGAL::orientation(lines_.flat(a), lines_.flat(b), lines_.flat(c)) == CGAL::POSITIVE ? 1 : -1;
+    }
+
+    /// For each facet the first of those that dissolved edges join to it, by their places among the facets;
+    /// and those edges, rising. Facets that fold back on each other are not joined.
+    std::vector<std::uint32_t> join_facets(std::span<const std::uint64_t> dissolved,
+                                           std::span<const int> sides,
+                                           std::vector<std::uint64_t>& joints) const {
+        UnionFind joined(facets_.size());
+        std::unordered_map<std::uint64_t, std::uint32_t> first_at;
+        for (std::uint32_t i = 0; i < facets_.size(); ++i) {
+            const auto& v = complex_.facets[facets_[i]].vertices;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto edge = edge_key(v[k], v[(k + 1) % 3]);
+                if (!std::ranges::binary_search(dissolved, edge)) continue;
+                const auto [at, is_first] = first_at.try_emplace(edge, i);
+                if (is_first || sides[at->second] != sides[i]) continue;
+                joined.unite(at->second, i);
+                joints.push_back(edge);
+            }
+        }
+        std::ranges::sort(joints);
+        std::vector<std::uint32_t> result(facets_.size());
+        for (std::uint32_t i = 0; i < result.size(); ++i) result[i] = joined.find(i);
+        return result;
+    }
+
+    Triangulation::Vertex_handle vertex(std::uint32_t point) {
+        const auto [at, is_new] = vertices_.try_emplace(point);
+        if (is_new) {
+            const Face hint = latest_ == Triangulation::Vertex_handle() ? Face() : latest_->face();
+            at->second = triangulation_.insert(lines_.flat(point), hint);
+            at->second->info().value = point;
+        }
+        latest_ = at->second;
+        return at->second;
+    }
+
+    /// The triangles that are reached without crossing a segment: the next part.
+    std::vector<std::array<std::uint32_t, 3>> flood(Face start) {
+        const auto number = static_cast<std::uint32_t>(borders_.size());
+        auto& border = borders_.emplace_back();
         std::vector<std::array<std::uint32_t, 3>> triangles;
-        std::vector<Triangulation::Face_handle> stack{start};
+        std::vector<Face> stack{start};
         start->info().value = number;
         while (!stack.empty()) {
             const auto face = stack.back();
             stack.pop_back();
-            triangles.push_back({face->vertex(0)->info().value, face->vertex(1)->info().value,
-                                 face->vertex(2)->info().value});
+            if (!triangulation_.is_infinite(face))
+                triangles.push_back({face->vertex(0)->info().value, face->vertex(1)->info().value,
+                                     face->vertex(2)->info().value});
             for (int k = 0; k < 3; ++k) {
                 const auto next = face->neighbor(k);
-                if (face->is_constrained(k) || triangulation_.is_infinite(next) || next->info().value != none)
-                    continue;
+                if (face->is_constrained(k)) border.emplace_back(face, k);
+                if (face->is_constrained(k) || next->info().value != none) continue;
                 next->info().value = number;
                 stack.push_back(next);
             }
@@ -137,59 +201,54 @@ class PlaneCutter {
         return triangles;
     }
 
-    std::vector<FlatFacet> flat_facets() const {
-        std::vector<FlatFacet> result;
-        for (const auto f : facets_) {
-            FlatFacet flat{
-                f, 1, {projection_(corner(f, 0)), projection_(corner(f, 1)), projection_(corner(f, 2))}, {}};
-            if (facets_.size() > 1 &&
-                CGAL::orientation(flat.corners[0], flat.corners[1], flat.corners[2]) == CGAL::NEGATIVE) {
-                flat.side = -1;
-                std::swap(flat.corners[1], flat.corners[2]);
+    /// Goes from part to part, beginning outside: what covers a part is what covers the one beside it, but
+    /// for the facets that end at the edge between them.
+    void cover(std::vector<PlaneCut::Part>& parts) const {
+        std::vector<bool> is_known(parts.size(), false);
+        std::vector<std::uint32_t> known{0};
+        is_known[0] = true;
+        for (std::size_t i = 0; i < known.size(); ++i)
+            for (const auto& [face, k] : borders_[known[i]]) {
+                const auto next = face->neighbor(k)->info().value;
+                if (is_known[next]) continue;
+                parts[next].facets = covers_beyond(parts[known[i]].facets, face, k);
+                is_known[next] = true;
+                known.push_back(next);
             }
-            flat.box = flat.corners[0].bbox() + flat.corners[1].bbox() + flat.corners[2].bbox();
-            result.push_back(flat);
-        }
-        return result;
     }
 
-    /// The facets that hold a triangle, found by a point inside that is on no edge of any of them.
-    static std::vector<std::pair<std::uint32_t, int>> facets_at(Triangulation::Face_handle face,
-                                                                const std::vector<FlatFacet>& flat) {
-        for (int attempt = 0; attempt < 100; ++attempt) {
-            const double u = 5 + attempt, v = 7 + 3 * attempt, w = 11 + 2 * attempt;
-            const Point2 sample =
-                CGAL::barycenter(face->vertex(0)->point(), Exact::FT(u), face->vertex(1)->point(),
-                                 Exact::FT(v), face->vertex(2)->point(), Exact::FT(w));
-            if (auto found = facets_at(sample, flat)) return *found;
-        }
-        throw std::logic_error("the arrangement found no point inside a part of a plane");
-    }
-
-    static std::optional<std::vector<std::pair<std::uint32_t, int>>> facets_at(
-        const Point2& sample, const std::vector<FlatFacet>& flat) {
-        std::vector<std::pair<std::uint32_t, int>> result;
-        const CGAL::Bbox_2 box = sample.bbox();
-        for (const FlatFacet& f : flat) {
-            if (!CGAL::do_overlap(f.box, box)) continue;
-            bool is_inside = true;
-            for (std::size_t k = 0; k < 3 && is_inside; ++k) {
-                const auto side = CGAL::orientation(f.corners[k], f.corners[(k + 1) % 3], sample);
-                if (side == CGAL::ZERO) return std::nullopt;
-                is_inside = side == CGAL::POSITIVE;
+    Covers covers_beyond(Covers covers, Face face, int k) const {
+        const auto from = face->vertex(Triangulation::ccw(k))->info().value,
+                   to = face->vertex(Triangulation::cw(k))->info().value;
+        const auto at = rims_.find(edge_key(from, to));
+        if (at == rims_.end()) return covers;
+        for (const Rim& rim : at->second) {
+            const std::pair cover(rim.facet, rim.side);
+            // This face is on the left of the edge, what lies beyond is on the right.
+            if (rim.is_left_of_rise == (to < from)) {
+                covers.push_back(cover);
+                continue;
             }
-            if (is_inside) result.emplace_back(f.facet, f.side);
+            const auto ended = std::ranges::find(covers, cover);
+            if (ended == covers.end())
+                throw std::logic_error("a facet of the arrangement ends where it is not");
+            covers.erase(ended);
         }
-        return result;
+        return covers;
     }
 
     const FacetComplex& complex_;
     const ExactPositions& positions_;
+    const Contacts& contacts_;
     std::span<const std::uint32_t> facets_;
-    PointRegistry& registry_;
     Projection projection_;
+    FlatLines lines_;
+    std::vector<std::uint32_t> corners_;          ///< of facets, and points where others touch them
+    std::vector<std::vector<Rim>> rims_of_line_;  ///< of the first lines, those that are edges
+    std::unordered_map<std::uint64_t, std::vector<Rim>> rims_;
     Triangulation triangulation_;
     Triangulation::Vertex_handle latest_{};
+    std::vector<std::vector<std::pair<Face, int>>> borders_;  ///< of the parts: constrained sides of triangles
     std::unordered_map<std::uint32_t, Triangulation::Vertex_handle> vertices_;
 };
 
@@ -198,11 +257,10 @@ class PlaneCutter {
 PlaneCut cut_plane(const FacetComplex& complex, const ExactPositions& positions, const Contacts& contacts,
                    std::span<const std::uint32_t> facets, std::span<const std::uint64_t> dissolved,
                    PointRegistry& registry) {
-    PlaneCutter cutter(complex, positions, facets, registry);
-    cutter.insert_facets(dissolved);
-    for (const auto f : facets)
-        for (const auto& segment : contacts.segments[f]) cutter.insert(segment);
-    cutter.register_crossings();
+    PlaneCutter cutter(complex, positions, contacts, facets, registry);
+    cutter.add_edges(dissolved);
+    cutter.add_contacts();
+    cutter.triangulate();
     return cutter.parts();
 }
 

@@ -16,7 +16,8 @@ struct PlaneCut {
     /// A connected part, cut by no line.
     struct Part {
         std::vector<std::pair<std::uint32_t, int>>
-            facets;  ///< that hold it; 1 if along the plane's normal, else -1
+            facets;  ///< that hold it; 1 if along the plane's normal, else -1. Of those that a dissolved edge
+                     ///< joins, the first stands for all.
         std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise around the plane's normal
     };
     Projection projection;

@@ -43,19 +43,23 @@ class Intersector {
         collect(i, si, j);
         collect(j, sj, i);
         if (common_.empty()) return;
-        const Contacts::Segment segment{common_.front(), common_.back()};
-        add(segment, i);
-        add(segment, j);
+        const auto edge_of_i = edge_in_plane(i, si), edge_of_j = edge_in_plane(j, sj);
+        add({{common_.front(), common_.back()}, edge_of_i != 0 ? edge_of_i : edge_of_j}, i);
+        add({{common_.front(), common_.back()}, edge_of_j != 0 ? edge_of_j : edge_of_i}, j);
     }
 
     Contacts take() {
-        std::ranges::sort(contacts_.edges);
-        contacts_.edges.erase(std::unique(contacts_.edges.begin(), contacts_.edges.end()),
-                              contacts_.edges.end());
+        sort_unique(contacts_.edges);
+        sort_unique(contacts_.on_edges);
         return std::move(contacts_);
     }
 
   private:
+    static void sort_unique(auto& values) {
+        std::ranges::sort(values);
+        values.erase(std::unique(values.begin(), values.end()), values.end());
+    }
+
     const Corners& corners(std::uint32_t facet) const { return complex_.facets[facet].vertices; }
     const ExactPoint& point(std::uint32_t v) const { return positions_.points[v]; }
 
@@ -107,19 +111,38 @@ class Intersector {
         if (std::ranges::find(common_, p) == common_.end()) common_.push_back(p);
     }
 
+    /// The edge of facet i that lies in the plane that its corners are on these sides of, or 0.
+    std::uint64_t edge_in_plane(std::uint32_t i, const Signs& s) const {
+        const Corners& c = corners(i);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (s[k] != CGAL::ZERO && s[(k + 1) % 3] == CGAL::ZERO && s[(k + 2) % 3] == CGAL::ZERO)
+                return edge_key(c[(k + 1) % 3], c[(k + 2) % 3]);
+        return 0;
+    }
+
     /// Whether point v, which lies in the plane of the facet, lies in the facet.
-    bool holds(std::uint32_t facet, std::uint32_t v) const {
+    bool holds(std::uint32_t facet, std::uint32_t v) {
         const Corners& c = corners(facet);
         if (std::ranges::find(c, v) != c.end()) return true;
         const Projection projection(point(c[0]), point(c[1]), point(c[2]));
-        bool left = false, right = false;
+        Signs s{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto side = turn(projection, c[k], c[(k + 1) % 3], v);
-            left |= side == CGAL::POSITIVE;
-            right |= side == CGAL::NEGATIVE;
-            if (left && right) return false;
+            s[k] = turn(projection, c[k], c[(k + 1) % 3], v);
+            if (have_both_signs(s)) return false;
         }
+        note_on_edges(c, s, v);
         return true;
+    }
+
+    static bool have_both_signs(const Signs& s) {
+        return std::ranges::find(s, CGAL::POSITIVE) != s.end() &&
+               std::ranges::find(s, CGAL::NEGATIVE) != s.end();
+    }
+
+    /// Point p of a facet lies on those of its edges that it is on neither side of.
+    void note_on_edges(const Corners& c, const Signs& s, std::uint32_t p) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (s[k] == CGAL::ZERO) contacts_.on_edges.emplace_back(edge_key(c[k], c[(k + 1) % 3]), p);
     }
 
     /// Orientation of three points of one plane.
@@ -135,20 +158,23 @@ class Intersector {
         const auto edge =
             edges_.try_emplace(edge_key(a, b), static_cast<std::uint32_t>(edges_.size())).first->second;
         const auto [at, is_new] = crossings_.try_emplace(std::uint64_t{edge} << 32 | facet, none);
-        if (is_new && pierces(a, b, facet)) at->second = registry_.add(construct_crossing(a, b, facet));
+        const Corners& c = corners(facet);
+        if (const auto s = is_new ? pierces(a, b, c) : std::nullopt) {
+            at->second = registry_.add(construct_crossing(a, b, facet));
+            contacts_.on_edges.emplace_back(edge_key(a, b), at->second);
+            note_on_edges(c, *s, at->second);
+        }
         return at->second;
     }
 
-    bool pierces(std::uint32_t a, std::uint32_t b, std::uint32_t facet) const {
-        const Corners& c = corners(facet);
-        bool left = false, right = false;
+    /// On which sides of the edge those of the facet with these corners run; nothing where it misses them.
+    std::optional<Signs> pierces(std::uint32_t a, std::uint32_t b, const Corners& c) const {
+        Signs s{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto side = orientation(a, b, c[k], c[(k + 1) % 3]);
-            left |= side == CGAL::POSITIVE;
-            right |= side == CGAL::NEGATIVE;
-            if (left && right) return false;
+            s[k] = orientation(a, b, c[k], c[(k + 1) % 3]);
+            if (have_both_signs(s)) return std::nullopt;
         }
-        return true;
+        return s;
     }
 
     ExactPoint construct_crossing(std::uint32_t a, std::uint32_t b, std::uint32_t facet) const {
@@ -172,16 +198,17 @@ class Intersector {
     void place_corners(std::uint32_t degenerate, std::uint32_t facet) {
         const auto& [a, b, c] = corners(facet);
         for (const auto v : corners(degenerate))
-            if (orientation(a, b, c, v) == CGAL::ZERO && holds(facet, v)) add({v, v}, facet);
+            if (orientation(a, b, c, v) == CGAL::ZERO && holds(facet, v)) add({{v, v}, 0}, facet);
     }
 
     void add(const Contacts::Segment& segment, std::uint32_t facet) {
         const Corners& c = corners(facet);
         const auto is_corner = [&](std::uint32_t p) { return std::ranges::find(c, p) != c.end(); };
-        if (!std::ranges::all_of(segment, is_corner))
+        const auto& [p, q] = segment.ends;
+        if (!is_corner(p) || !is_corner(q))
             contacts_.segments[facet].push_back(segment);
-        else if (segment[0] != segment[1])
-            contacts_.edges.push_back(edge_key(segment[0], segment[1]));
+        else if (p != q)
+            contacts_.edges.push_back(edge_key(p, q));
     }
 
     const FacetComplex& complex_;

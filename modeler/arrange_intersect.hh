@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "modeler/arrange_boxes.hh"
@@ -13,10 +15,19 @@ namespace maille::modeler::detail {
 
 /// Where facets meet others.
 struct Contacts {
-    using Segment =
-        std::array<std::uint32_t, 2>;  ///< numbers in the registry; twice the same for a single point
+    struct Segment {
+        std::array<std::uint32_t, 2> ends;  ///< numbers in the registry; twice the same for a single point
+        std::uint64_t carrier;              ///< the edge of a facet that it is known to lie on, or 0
+    };
+    using PointOnEdge = std::pair<std::uint64_t, std::uint32_t>;
+
+    /// The points known to lie on the edge.
+    auto points_at(std::uint64_t edge) const {
+        return std::ranges::equal_range(on_edges, edge, {}, &PointOnEdge::first);
+    }
 
     std::vector<std::vector<Segment>> segments;  ///< on each facet; not its own edges and corners
+    std::vector<PointOnEdge> on_edges;           ///< points found on edges of facets; rising
     std::vector<std::uint64_t> edges;            ///< of facets, along which others meet them; rising
     std::vector<Pair> coplanar;                  ///< facets in one plane that meet
     std::vector<bool> degenerate;                ///< facets with no area
