@@ -1,8 +1,10 @@
 """A browser without a window, driven through its debugging protocol."""
 
 import json
+import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -31,7 +33,8 @@ class Browser:
         self.process = subprocess.Popen(
             [PROGRAM, "--headless", "--no-sandbox", "--remote-debugging-port=0", "--use-angle=swiftshader",
              "--enable-unsafe-swiftshader", f"--user-data-dir={self.profile.name}", "--window-size=1200,800",
-             "--remote-allow-origins=*", "about:blank"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+             "--remote-allow-origins=*", "about:blank"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            start_new_session=True)
         self.count = 0
         self.events = []
         try:
@@ -50,7 +53,8 @@ class Browser:
         self.close()
 
     def close(self):
-        self.process.kill()
+        # The browser is many processes, behind a script.
+        os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
         self.profile.cleanup()
 
