@@ -50,11 +50,11 @@ void raise_mean(TetMesh& mesh, std::vector<Shape>& shapes, const ImproveOptions&
     const SizeLimit limit(options.size, options.ratio);
     double mean = mean_beta(mesh, shapes);
     for (int sweep = 0; sweep < options.mean_sweeps; ++sweep) {
-        if (sweep > 0 && options.may_change_cells)
+        if (mean < options.good_mean && options.may_change_cells)
             result.edge_removals += flip_for_mean(mesh, shapes, mean, options.good_enough, limit);
         result.moves += move_for_mean(mesh, shapes, options.good_enough, limit);
         const double before = std::exchange(mean, mean_beta(mesh, shapes));
-        if (mean >= options.good_mean || (sweep > 0 && mean < before + little)) break;
+        if (mean >= options.good_mean || mean < before + little) break;
     }
 }
 

@@ -16,8 +16,8 @@ struct ImproveOptions {
     double good_enough = 0.45;
     /// Whether connectivity may change: by flips, removal of edges and faces, edge collapse and edge split.
     bool may_change_cells = true;
-    /// Most sweeps to raise the mean of beta: each moves the vertices inside the mesh; before each but the
-    /// first one, edges are removed. They end when the mean is `good_mean`, or gains little.
+    /// Most sweeps to raise the mean of beta: each removes edges inside the mesh where the mean is below
+    /// `good_mean`, and then moves vertices. They end when it is no longer, or gains little.
     int mean_sweeps = 8;
     double good_mean = 0.8;
     /// Wanted edge lengths; a move makes no cell longer than `ratio` times the size at its centroid, unless
@@ -35,17 +35,17 @@ struct ImproveResult {
 };
 
 /// Betters a mesh: raises the mean of beta by sweeps over all of it, if that is low (mean_moves.hh,
-/// mean_flips.hh); then betters the worst cells: moves vertices, removes edges and faces, collapses and splits
-/// edges, the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R. Shewchuk, "Aggressive
-/// tetrahedral mesh improvement", 2007.
+/// mean_flips.hh); then betters the worst cells: moves vertices, removes edges and faces, collapses and
+/// splits edges, the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R. Shewchuk,
+/// "Aggressive tetrahedral mesh improvement", 2007.
 ///
 /// No move lowers the least objective of the cells that it changes, unless it stays above `good_enough`; so
-/// the mesh's least never goes down, and an inverted cell may come right but none arises. Sets and properties pass on by their rules, the volume of
-/// each cell set and the area of each flat face set stay. Vertices keep to their geometric support: the
-/// surfaces that their faces' sets name, where `projector` knows these; else the planes of their faces, where
-/// these are flat; else they stay. So do vertices in a vertex set, on an edge of an edge set, and where two
-/// different parts of one surface meet. Faces and curves come no farther from the true surfaces, measured in
-/// their middles.
+/// the mesh's least never goes down, and an inverted cell may come right but none arises. Sets and properties
+/// pass on by their rules, the volume of each cell set and the area of each flat face set stay. Vertices keep
+/// to their geometric support: the surfaces that their faces' sets name, where `projector` knows these; else
+/// the planes of their faces, where these are flat; else they stay. So do vertices in a vertex set, on an
+/// edge of an edge set, and where two different parts of one surface meet. Faces and curves come no farther
+/// from the true surfaces, measured in their middles.
 ///
 /// Cells and vertices are renumbered (garbage_collection()) if connectivity changes. The result depends on
 /// the mesh and the options alone. Whatever the projector or the size throws passes through; the mesh is then
