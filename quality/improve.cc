@@ -1,13 +1,9 @@
 #include "quality/improve.hh"
 
-#include <algorithm>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "quality/improver.hh"
-#include "quality/mean_flips.hh"
-#include "quality/mean_moves.hh"
 
 namespace maille::quality {
 namespace {
@@ -27,45 +23,13 @@ std::vector<Shape> shapes_of(const TetMesh& mesh) {
     return shapes;
 }
 
-double worst(const std::vector<Shape>& shapes) {
-    double least = 1;
-    for (const Shape& shape : shapes) least = std::min(least, shape.objective);
-    return least;
-}
-
-double mean_beta(const TetMesh& mesh, const std::vector<Shape>& shapes) {
-    double sum = 0;
-    std::size_t n = 0;
-    for (std::uint32_t i = 0; i < mesh.n_cells(); ++i) {
-        if (mesh.is_deleted(CellHandle(i))) continue;
-        sum += shapes[i].beta;
-        ++n;
-    }
-    return n > 0 ? sum / static_cast<double>(n) : 1;
-}
-
-void raise_mean(TetMesh& mesh, std::vector<Shape>& shapes, const ImproveOptions& options,
-                ImproveResult& result) {
-    constexpr double little = 0.004;
-    const SizeLimit limit(options.size, options.ratio);
-    double mean = mean_beta(mesh, shapes);
-    for (int sweep = 0; sweep < options.mean_sweeps; ++sweep) {
-        if (mean < options.good_mean && options.may_change_cells)
-            result.edge_removals += flip_for_mean(mesh, shapes, mean, options.good_enough, limit);
-        result.moves += move_for_mean(mesh, shapes, options.good_enough, limit);
-        const double before = std::exchange(mean, mean_beta(mesh, shapes));
-        if (mean >= options.good_mean || mean < before + little) break;
-    }
-}
-
 }  // namespace
 
 ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmesh::Projector* projector) {
     ImproveResult result;
-    std::vector<Shape> shapes = shapes_of(mesh);
-    result.worst_before = worst(shapes);
-    raise_mean(mesh, shapes, options, result);
-    Improver improver(mesh, std::move(shapes), options, projector, result);
+    Improver improver(mesh, shapes_of(mesh), options, projector, result);
+    result.worst_before = improver.worst();
+    improver.raise_mean();
     bool all_moves = false;
     for (int pass = 0; pass < options.max_passes; ++pass) {
         const std::size_t n_moves = improver.pass(all_moves);
@@ -73,7 +37,7 @@ ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmes
         if (n_moves == 0 && all_moves) break;
         all_moves = !all_moves && pass > 0;
     }
-    result.worst_after = worst(improver.shapes());
+    result.worst_after = improver.worst();
     if (mesh.has_deleted()) mesh.garbage_collection();
     return result;
 }

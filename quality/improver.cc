@@ -23,6 +23,12 @@ Improver::Improver(TetMesh& mesh, std::vector<Shape> shapes, const ImproveOption
       changed_(mesh.n_vertices(), 1),
       result_(result) {}
 
+double Improver::worst() const {
+    double least = 1;
+    for (const Shape& shape : shapes_) least = std::min(least, shape.objective);
+    return least;
+}
+
 std::size_t Improver::pass(bool all_moves) {
     std::vector<std::uint32_t> bad;
     for (std::uint32_t i = 0; i < mesh_.n_cells(); ++i)

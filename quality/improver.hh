@@ -27,7 +27,11 @@ class Improver {
     /// tried, the worst first. Vertices are added and taken out only with `all_moves`. Returns the number of
     /// moves.
     std::size_t pass(bool all_moves);
-    const std::vector<Shape>& shapes() const { return shapes_; }
+    /// Raises the mean of beta by sweeps over the mesh, if it is low.
+    void raise_mean();
+
+    /// The least objective of the mesh.
+    double worst() const;
 
   private:
     using CellHandle = volmesh::CellHandle;
@@ -48,7 +52,12 @@ class Improver {
 
     // improver_smooth.cc
     bool smooth(VertexHandle v);
-    IsAllowed allowed_places(VertexHandle v, const CellList& cells, const Freedom& freedom);
+    IsAllowed allowed_places(VertexHandle v, const CellList& cells, const Bases& bases,
+                             const Freedom& freedom);
+
+    // improver_mean.cc
+    double mean_beta() const;
+    std::size_t slide_for_mean(const std::vector<std::uint8_t>& is_free);
 
     // improver_flips.cc
     struct EdgeRemoval {

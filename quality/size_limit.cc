@@ -16,4 +16,15 @@ double SizeLimit::excess(const std::array<Point, 4>& cell) const {
     return std::max(1.0, std::sqrt(longest) / (ratio_ * (*size_)(centroid)));
 }
 
+bool SizeLimit::keeps(const Bases& bases, const Point& from, const Point& to) const {
+    if (!size_) return true;
+    const auto excess_with = [&](const Point& p) {
+        double worst = 1;
+        for (const Base& base : bases) worst = std::max(worst, excess({p, base[0], base[1], base[2]}));
+        return worst;
+    };
+    const double after = excess_with(to);
+    return after <= 1 || after <= excess_with(from);
+}
+
 }  // namespace maille::quality

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "quality/measures.hh"
+#include "quality/objective.hh"
 #include "quality/report.hh"
 
 namespace maille::quality {
@@ -16,6 +16,8 @@ class SizeLimit {
     bool exists() const { return size_ != nullptr; }
     /// How far the longest edge is beyond `ratio` times the size at the centroid, at least 1.
     double excess(const std::array<Point, 4>& cell) const;
+    /// Whether cells with these bases come to be no farther beyond it by a vertex's move.
+    bool keeps(const Bases& bases, const Point& from, const Point& to) const;
 
   private:
     const WantedSize* size_;

@@ -17,4 +17,17 @@ using IsAllowed = std::function<bool(const Point&)>;
 std::optional<Point> better_place(const Bases& bases, const Point& start, const Constraint& constraint,
                                   const IsAllowed& is_allowed);
 
+using Shapes = boost::container::small_vector<Shape, 48>;
+
+/// A place for a vertex, and the shapes that its cells have with it there.
+struct Place {
+    Point point;
+    Shapes shapes;
+};
+
+/// A place near `start` that raises the sum of beta over the cells with these bases and leaves all of them an
+/// objective above `floor`, if there is one: up the slope of the sum, about as far as it rises.
+std::optional<Place> higher_place(const Bases& bases, const Point& start, double floor,
+                                  const Constraint& constraint, const IsAllowed& is_allowed);
+
 }  // namespace maille::quality

@@ -1,8 +1,11 @@
 #include "quality/support.hh"
 
 #include <algorithm>
+#include <atomic>
 
 #include <Eigen/Geometry>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "volmesh/strata.hh"
 
@@ -109,6 +112,30 @@ std::optional<Eigen::Matrix3d> Constraint::tangent(double reach) const {
         result.col(k) = (*there - *here) / step;
     }
     return result;
+}
+
+std::vector<std::uint8_t> free_vertices(const TetMesh& mesh) {
+    std::vector<std::uint8_t> is_free(mesh.n_vertices(), 1);
+    const auto bind = [&](VertexHandle v) {
+        std::atomic_ref(is_free[v.idx()]).store(0, std::memory_order_relaxed);
+    };
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, mesh.n_cells(), 4096), [&](const auto& range) {
+        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+            const CellHandle c(i);
+            if (mesh.is_deleted(c)) continue;
+            for (int f = 0; f < 4; ++f) {
+                const auto hf = TetMesh::halfface(c, f);
+                if (volmesh::is_interface(mesh, hf)) std::ranges::for_each(mesh.halfface_vertices(hf), bind);
+            }
+            for (int e = 0; e < 6; ++e) {
+                if (mesh.combination(c, e) == 0) continue;
+                for (const int end : volmesh::tet::edge_vertices[e]) bind(mesh.cell_vertex(c, end));
+            }
+        }
+    });
+    for (std::uint32_t i = 0; i < mesh.n_vertices(); ++i)
+        if (mesh.combination(VertexHandle(i)) != 0) is_free[i] = 0;
+    return is_free;
 }
 
 }  // namespace maille::quality

@@ -37,6 +37,10 @@ class Freedoms {
     volmesh::FaceSurfaces surfaces_of_;
 };
 
+/// By vertex, 1 where it may go anywhere: where it is on no interface and in no set, nor on an edge that is
+/// in one; as `Freedoms` tells of one vertex. Cost: one pass over the mesh, by many threads.
+std::vector<std::uint8_t> free_vertices(const volmesh::TetMesh& mesh);
+
 /// What binds a vertex at its present place.
 class Constraint {
   public:

@@ -143,7 +143,14 @@ TEST_CASE("with a projector the boundary moves on its geometric support only") {
     const Projector projector = cube_projector();
     ImproveOptions options = moves_only;
     options.good_enough = 1;
+    options.good_mean = 1;
+    SUBCASE("to better the worst") {}
+    SUBCASE("to raise the mean") {
+        options.mean_sweeps = 3;
+        options.max_passes = 0;
+    }
     improve(mesh, options, &projector);
+    CHECK(assess(mesh)[Measure::beta].mean > assess(before)[Measure::beta].mean + 0.05);
     CHECK(validate(mesh).ok());
     CHECK(worst(mesh) > worst(before));
     CHECK(volume(mesh) == doctest::Approx(1).epsilon(1e-12));
