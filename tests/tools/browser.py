@@ -2,43 +2,41 @@
 
 import json
 import os
-import pathlib
 import shutil
 import signal
 import subprocess
 import tempfile
 import time
-import urllib.request
-
-try:
-    import websocket
-except ImportError:
-    websocket = None
 
 PROGRAM = next((path for name in ("chromium-headless-shell", "chromium") if (path := shutil.which(name))), None)
 
 
-def why_missing():
-    """None where a browser can be driven."""
-    if PROGRAM is None:
-        return "Chromium isn't installed"
-    return "python3-websocket isn't installed" if websocket is None else None
-
-
 class Browser:
-    """One page, of 1200 by 800 pixels, drawn by the processor. Use it in a `with`."""
+    """One page, of 1200 by 800 pixels, drawn by the processor. Use it in a `with`.
+
+    It is talked to by pipes, at the browser's descriptors 3 and 4, and ends when they do.
+    """
 
     def __init__(self):
         self.profile = tempfile.TemporaryDirectory(prefix="maille-browser-", ignore_cleanup_errors=True)
+        theirs_in, our_out = os.pipe()
+        our_in, theirs_out = os.pipe()
+        arguments = ["--headless", "--no-sandbox", "--remote-debugging-pipe", "--use-angle=swiftshader",
+                     "--enable-unsafe-swiftshader", f"--user-data-dir={self.profile.name}", "--window-size=1200,800",
+                     "about:blank"]
         self.process = subprocess.Popen(
-            [PROGRAM, "--headless", "--no-sandbox", "--remote-debugging-port=0", "--use-angle=swiftshader",
-             "--enable-unsafe-swiftshader", f"--user-data-dir={self.profile.name}", "--window-size=1200,800",
-             "--remote-allow-origins=*", "about:blank"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            ["bash", "-c", f'exec "$@" 3<&{theirs_in} 4>&{theirs_out}', "bash", PROGRAM,
+             *arguments], pass_fds=(theirs_in, theirs_out), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             start_new_session=True)
+        os.close(theirs_in)
+        os.close(theirs_out)
+        self.output, self.input = os.fdopen(our_out, "wb", buffering=0), os.fdopen(our_in, "rb")
         self.count = 0
         self.events = []
+        self.session = {}
         try:
-            self.socket = websocket.create_connection(self.find_page(), timeout=60)
+            target = self.call("Target.createTarget", url="about:blank")["targetId"]
+            self.session = {"sessionId": self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]}
             for domain in ("Page", "Runtime", "Log", "Network"):
                 self.call(f"{domain}.enable")
         except BaseException:
@@ -49,32 +47,32 @@ class Browser:
         return self
 
     def __exit__(self, *_):
-        self.socket.close()
         self.close()
 
     def close(self):
+        self.output.close()
+        self.input.close()
         # The browser is many processes, behind a script.
         os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
         self.profile.cleanup()
 
-    def find_page(self):
-        port = pathlib.Path(self.profile.name) / "DevToolsActivePort"
-        deadline = time.monotonic() + 30
-        while time.monotonic() < deadline:
-            if port.exists() and (lines := port.read_text().split()):
-                with urllib.request.urlopen(f"http://127.0.0.1:{lines[0]}/json") as answer:
-                    for target in json.load(answer):
-                        if target["type"] == "page":
-                            return target["webSocketDebuggerUrl"]
-            time.sleep(0.05)
-        raise TimeoutError("the browser doesn't start")
+    def receive(self):
+        """The next message: they end in a zero byte."""
+        message = bytearray()
+        while not message.endswith(b"\0"):
+            byte = self.input.read(1)
+            if not byte:
+                raise EOFError("the browser has ended")
+            message += byte
+        return json.loads(message[:-1])
 
     def call(self, method, **parameters):
         self.count += 1
-        self.socket.send(json.dumps({"id": self.count, "method": method, "params": parameters}))
+        message = {"id": self.count, "method": method, "params": parameters, **self.session}
+        self.output.write(json.dumps(message).encode() + b"\0")
         while True:
-            message = json.loads(self.socket.recv())
+            message = self.receive()
             if message.get("id") == self.count:
                 if "error" in message:
                     raise RuntimeError(message["error"])
