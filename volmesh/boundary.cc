@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
 
 #include "volmesh/tet_ranges.hh"
 
@@ -12,7 +14,7 @@ namespace {
 
 using Index = TetMesh::Index;
 
-/// Corners of the boundary faces, 3 * face + i; those that are one vertex of the surface are joined.
+/// Corners of the faces, 3 * face + i; those that are one vertex of the surface are joined.
 class Corners {
   public:
     explicit Corners(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -50,7 +52,16 @@ int place(const std::array<VertexHandle, 3>& vertices, VertexHandle v) {
     return static_cast<int>(std::ranges::find(vertices, v) - vertices.begin());
 }
 
-Corners joined_corners(const TetMesh& mesh, const std::vector<HalffaceHandle>& faces) {
+/// Faces f and g share the edge.
+void join_at(const TetMesh& mesh, const std::vector<HalffaceHandle>& faces, Corners& corners, std::size_t f,
+             std::size_t g, std::array<VertexHandle, 2> edge) {
+    for (VertexHandle v : edge)
+        corners.join(3 * f + place(mesh.halfface_vertices(faces[f]), v),
+                     3 * g + place(mesh.halfface_vertices(faces[g]), v));
+}
+
+/// Of all boundary faces: what turning through the cells joins.
+Corners corners_of_boundary(const TetMesh& mesh, const std::vector<HalffaceHandle>& faces) {
     Corners corners(3 * faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const auto vertices = mesh.halfface_vertices(faces[f]);
@@ -61,8 +72,7 @@ Corners joined_corners(const TetMesh& mesh, const std::vector<HalffaceHandle>& f
             // `faces` is in ascending order.
             const auto g = static_cast<std::size_t>(std::ranges::lower_bound(faces, other) - faces.begin());
             if (g < f) continue;
-            const auto others = mesh.halfface_vertices(other);
-            for (VertexHandle v : {a, b}) corners.join(3 * f + place(vertices, v), 3 * g + place(others, v));
+            join_at(mesh, faces, corners, f, g, {a, b});
         }
     }
     return corners;
@@ -77,20 +87,17 @@ bool has_room(const TriMesh& surface, const std::array<TriMesh::VertexHandle, 3>
     return true;
 }
 
-}  // namespace
-
-BoundarySurface boundary(const TetMesh& mesh) {
-    BoundarySurface result;
-    for (const auto hf : mesh.boundary_halffaces()) result.halffaces.push_back(hf);
+/// The surface of these faces, whose corners are joined as is said.
+ExtractedSurface surface_of(const TetMesh& mesh, std::vector<HalffaceHandle> halffaces, Corners corners) {
+    ExtractedSurface result;
+    result.halffaces = std::move(halffaces);
     const auto& faces = result.halffaces;
-    Corners corners = joined_corners(mesh, faces);
-
     const auto add_vertex = [&](VertexHandle v) {
         result.vertices.push_back(v);
         return result.surface.add_vertex(mesh.point(v));
     };
-    std::vector<TriMesh::VertexHandle> vertex_of(3 *
-                                                 faces.size());  // by the corner that stands for the others
+    // By the corner that stands for the others.
+    std::vector<TriMesh::VertexHandle> vertex_of(3 * faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const auto vertices = mesh.halfface_vertices(faces[f]);
         std::array<TriMesh::VertexHandle, 3> face;
@@ -104,6 +111,104 @@ BoundarySurface boundary(const TetMesh& mesh) {
         result.surface.add_face(face[0], face[1], face[2]);
     }
     return result;
+}
+
+/// An edge at which exactly two of the faces meet.
+struct Seam {
+    VertexHandle a, b;
+    std::array<std::size_t, 2> faces;
+};
+
+std::vector<Seam> seams_of(const TetMesh& mesh, const std::vector<HalffaceHandle>& faces) {
+    struct Side {
+        VertexHandle a, b;
+        std::size_t face;
+        auto operator<=>(const Side&) const = default;
+    };
+    std::vector<Side> sides;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto v = mesh.halfface_vertices(faces[f]);
+        for (int i = 0; i < 3; ++i) {
+            const auto [a, b] = std::minmax(v[i], v[(i + 1) % 3]);
+            sides.push_back({a, b, f});
+        }
+    }
+    std::ranges::sort(sides);
+    std::vector<Seam> seams;
+    for (std::size_t i = 0; i < sides.size();) {
+        std::size_t same = i + 1;
+        while (same < sides.size() && sides[same].a == sides[i].a && sides[same].b == sides[i].b) ++same;
+        if (same - i == 2) seams.push_back({sides[i].a, sides[i].b, {sides[i].face, sides[i + 1].face}});
+        i = same;
+    }
+    return seams;
+}
+
+bool turns_from_a_to_b(const TetMesh& mesh, HalffaceHandle hf, const Seam& seam) {
+    const auto v = mesh.halfface_vertices(hf);
+    return v[(place(v, seam.a) + 1) % 3] == seam.b;
+}
+
+bool turn_alike(const TetMesh& mesh, const std::vector<HalffaceHandle>& faces, const Seam& seam) {
+    return turns_from_a_to_b(mesh, faces[seam.faces[0]], seam) !=
+           turns_from_a_to_b(mesh, faces[seam.faces[1]], seam);
+}
+
+/// Turns faces inside the mesh as their neighbours turn, beginning at the boundary.
+void make_turn_alike(const TetMesh& mesh, std::vector<HalffaceHandle>& faces,
+                     const std::vector<Seam>& seams) {
+    std::vector<std::vector<std::size_t>> seams_at(faces.size());
+    for (std::size_t s = 0; s < seams.size(); ++s)
+        for (std::size_t f : seams[s].faces) seams_at[f].push_back(s);
+    std::vector<std::uint8_t> is_settled(faces.size(), 0);
+    std::vector<std::size_t> queue;
+    const auto settle = [&](std::size_t f) {
+        is_settled[f] = 1;
+        queue.push_back(f);
+    };
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        if (mesh.is_boundary(faces[f])) settle(f);
+    std::size_t next = 0;
+    for (std::size_t first = 0; first < faces.size() || next < queue.size();) {
+        if (next == queue.size()) {
+            if (is_settled[first] == 0) settle(first);
+            ++first;
+            continue;
+        }
+        const std::size_t face = queue[next++];
+        for (std::size_t s : seams_at[face]) {
+            const std::size_t beside = seams[s].faces[seams[s].faces[0] == face ? 1 : 0];
+            if (is_settled[beside] != 0) continue;
+            if (!turn_alike(mesh, faces, seams[s]))
+                faces[beside] = mesh.opposite_halfface_handle(faces[beside]);
+            settle(beside);
+        }
+    }
+}
+
+}  // namespace
+
+ExtractedSurface boundary(const TetMesh& mesh) {
+    std::vector<HalffaceHandle> faces;
+    for (const auto hf : mesh.boundary_halffaces()) faces.push_back(hf);
+    Corners corners = corners_of_boundary(mesh, faces);
+    return surface_of(mesh, std::move(faces), std::move(corners));
+}
+
+ExtractedSurface extract_surface(const TetMesh& mesh, std::vector<HalffaceHandle> faces) {
+    Corners corners(3 * faces.size());
+    for (const Seam& seam : seams_of(mesh, faces))
+        if (turn_alike(mesh, faces, seam))
+            join_at(mesh, faces, corners, seam.faces[0], seam.faces[1], {seam.a, seam.b});
+    return surface_of(mesh, std::move(faces), std::move(corners));
+}
+
+ExtractedSurface extract_surface(const TetMesh& mesh, SetHandle face_set) {
+    if (mesh.set_info(face_set).kind != EntityKind::face)
+        throw std::invalid_argument("a surface is told by a set of faces");
+    std::vector<HalffaceHandle> faces = mesh.face_members(face_set);
+    make_turn_alike(mesh, faces, seams_of(mesh, faces));
+    return extract_surface(mesh, std::move(faces));
 }
 
 }  // namespace maille::volmesh

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "volmesh/handles.hh"
+#include "volmesh/property_text.hh"
 
 namespace maille::volmesh {
 
@@ -38,6 +39,20 @@ struct PropertyHeritage {
     PropertyHeritage(PropertyRule r) : rule(r) {}  // NOLINT: a rule is a heritage
 };
 
+/// What a property's entities have before they are told otherwise: zeros for Eigen's types, which would have
+/// no value at all.
+template <class T>
+T initial_value() {
+    if constexpr (requires {
+                      requires T::SizeAtCompileTime >
+                      0;
+                  }) {
+        return T::Zero();
+    } else {
+        return T{};
+    }
+}
+
 /// Who gets the values of entities that a local edit takes out.
 struct Inheritance {
     struct Heir {
@@ -58,6 +73,12 @@ class BaseProperty {
 
     const std::string& name() const { return name_; }
     virtual const std::type_info& type() const = 0;
+    virtual PropertyRule rule() const = 0;
+    /// Whether functions of the user's stand in for the rule.
+    virtual bool has_own_rule() const = 0;
+    /// A value, or that of entities that nothing is known of, in words, as text_of gives it.
+    virtual std::string text(std::size_t i) const = 0;
+    virtual std::string default_text() const = 0;
     virtual std::unique_ptr<BaseProperty> clone() const = 0;
     virtual std::size_t size() const = 0;
     virtual void resize(std::size_t n) = 0;
@@ -73,6 +94,8 @@ class BaseProperty {
     virtual void pass_on(std::span<const Inheritance> inheritances) = 0;
     /// Keeps the values at these old indices, in this order.
     virtual void gather(const std::vector<std::uint32_t>& old_indices) = 0;
+    /// Puts the values of another, of the same type, behind its own.
+    virtual void append(const BaseProperty& more) = 0;
 
   protected:
     BaseProperty(const BaseProperty&) = default;
@@ -102,8 +125,13 @@ class Property final : public BaseProperty {
     std::vector<Stored>& values() { return values_; }
     const std::vector<Stored>& values() const { return values_; }
     const PropertyHeritage<T>& heritage() const { return heritage_; }
+    const Stored& default_value() const { return default_; }
 
     const std::type_info& type() const override { return typeid(T); }
+    PropertyRule rule() const override { return heritage_.rule; }
+    bool has_own_rule() const override { return heritage_.at_vertex || heritage_.at_children; }
+    std::string text(std::size_t i) const override { return text_of(static_cast<const T&>(values_[i])); }
+    std::string default_text() const override { return text_of(static_cast<const T&>(default_)); }
     std::unique_ptr<BaseProperty> clone() const override {
         return std::unique_ptr<BaseProperty>(new Property(*this));
     }
@@ -114,6 +142,10 @@ class Property final : public BaseProperty {
     void push_among(std::span<const std::uint32_t> parents, std::span<const double> weights) override;
     void pass_on(std::span<const Inheritance> inheritances) override;
     void gather(const std::vector<std::uint32_t>& old_indices) override;
+    void append(const BaseProperty& more) override {
+        const auto& values = static_cast<const Property&>(more).values_;
+        values_.insert(values_.end(), values.begin(), values.end());
+    }
 
   private:
     Property(const Property&) = default;
@@ -247,6 +279,10 @@ template <class T>
 using FPropHandleT = PropertyHandle<FaceHandle, T>;
 template <class T>
 using CPropHandleT = PropertyHandle<CellHandle, T>;
+/// Stands for the mesh as a whole, which has properties too.
+using MeshHandle = Handle<struct MeshKind>;
+template <class T>
+using MPropHandleT = PropertyHandle<MeshHandle, T>;
 
 /// A property that can be indexed by handles of its own kind only. Valid until the property is removed.
 template <class Entity, class T>

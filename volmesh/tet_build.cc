@@ -7,10 +7,23 @@
 
 #include "volmesh/error.hh"
 #include "volmesh/fans.hh"
-#include "volmesh/measure.hh"
+#include "volmesh/orientation.hh"
+#include "volmesh/overlap.hh"
 #include "volmesh/tet_mesh.hh"
 
 namespace maille::volmesh {
+namespace {
+
+/// All that are in any of the lists, ascending.
+CellList united(std::span<const CellList> lists) {
+    CellList all;
+    for (const CellList& list : lists) all.insert(all.end(), list.begin(), list.end());
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+}  // namespace
 
 TetMesh TetMesh::from_cells(std::vector<Point> points, std::vector<std::array<Index, 4>> cells) {
     if (cells.size() >= none / 8 || points.size() >= none)
@@ -186,7 +199,7 @@ CellHandle TetMesh::add_cell(VertexHandle v0, VertexHandle v1, VertexHandle v2, 
     for (VertexHandle v : vertices)
         if (!v.is_valid() || v.idx() >= n_vertices() || is_deleted(v))
             throw std::invalid_argument(name + ": one of them is not a vertex of the mesh");
-    if (!(tet_volume(point(v0), point(v1), point(v2), point(v3)) > 0))
+    if (orientation(point(v0), point(v1), point(v2), point(v3)) <= 0)
         throw std::invalid_argument(name + ": it is flat or inverted; exchange two of its vertices");
 
     std::array<Index, 4> opposite{};
@@ -206,12 +219,15 @@ CellHandle TetMesh::add_cell(VertexHandle v0, VertexHandle v1, VertexHandle v2, 
         opposite[f] = same.idx();
     }
 
-    const CellHandle c(n_cells());
     std::array<CellList, 4> cells_at;
-    for (int i = 0; i < 4; ++i) {
-        cells_at[i] = vc_range(vertices[i]);
-        cells_at[i].push_back(c);
-    }
+    for (int i = 0; i < 4; ++i) cells_at[i] = vc_range(vertices[i]);
+    const std::array corners{point(v0), point(v1), point(v2), point(v3)};
+    for (CellHandle other : united(cells_at))
+        if (overlap(corners, cell_points(other)))
+            throw std::invalid_argument(fmt::format("{}: it overlaps cell {}", name, other.idx()));
+
+    const CellHandle c(n_cells());
+    for (CellList& cells : cells_at) cells.push_back(c);
     cells_.push_back({v0.idx(), v1.idx(), v2.idx(), v3.idx()});
     neighbors_.push_back(opposite);
     for (int f = 0; f < 4; ++f) {

@@ -41,6 +41,11 @@ EntityRange<EdgeHandle> TetMesh::edges() const {
     return {*this, n_edges(), deleted_cells_.empty() ? Range::Filter::nothing : Range::Filter::deleted};
 }
 
+EntityRange<HalfedgeHandle> TetMesh::halfedges() const {
+    using Range = EntityRange<HalfedgeHandle>;
+    return {*this, n_halfedges(), deleted_cells_.empty() ? Range::Filter::nothing : Range::Filter::deleted};
+}
+
 EntityRange<FaceHandle> TetMesh::faces() const {
     using Range = EntityRange<FaceHandle>;
     request_faces();

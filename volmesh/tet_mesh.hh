@@ -10,13 +10,14 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <boost/container/small_vector.hpp>
 
 #include "volmesh/column.hh"
 #include "volmesh/edge_stars.hh"
 #include "volmesh/handles.hh"
 #include "volmesh/named_sets.hh"
 #include "volmesh/properties.hh"
+#include "volmesh/status.hh"
+#include "volmesh/tet_navigation.hh"
 #include "volmesh/tet_topology.hh"
 
 namespace maille::volmesh {
@@ -29,12 +30,6 @@ template <class H>
 struct SmartHandle;
 struct Retriangulation;
 struct Cavity;
-
-/// Cells met by a local query, in an order that depends on the mesh alone.
-using CellList = boost::container::small_vector<CellHandle, 48>;
-using VertexList = boost::container::small_vector<VertexHandle, 48>;
-using EdgeList = boost::container::small_vector<EdgeHandle, 48>;
-using FaceList = boost::container::small_vector<FaceHandle, 48>;
 
 /// Where each old index went in a garbage collection; the invalid index for what is gone.
 struct IndexMaps {
@@ -50,36 +45,37 @@ struct IndexMaps {
 /// request_faces().
 ///
 /// Boundaries need not be manifold: cells that touch in a vertex or an edge only are found by every query.
-class TetMesh {
+class TetMesh : public TetNavigation {
   public:
     using Index = std::uint32_t;
     static constexpr Index none = VertexHandle::invalid_index;
 
     // ---- making
-    // -----------------------------------------------------------------------------------------------------
     /// The mesh of these cells, each four vertex indices, positively oriented: (v1-v0)x(v2-v0).(v3-v0) > 0.
     /// Orientation is not checked (see validate); throws InputError where an index is out of range, a cell
     /// has a vertex twice or more than two cells share a face, naming the cells.
     static TetMesh from_cells(std::vector<Point> points, std::vector<std::array<Index, 4>> cells);
 
     VertexHandle add_vertex(const Point& p);
-    /// Throws std::invalid_argument, naming what is wrong, where the cell is inverted or flat or one of its
-    /// faces already has two cells, or a cell on that same side.
+    /// Throws std::invalid_argument, naming what is wrong, where the cell is inverted or flat, one of its
+    /// faces already has two cells, or it overlaps a cell at one of its vertices (decided exactly, some 10 us
+    /// for each cell there; from_cells is for many). Overlaps elsewhere are find_overlaps()'s matter.
     CellHandle add_cell(VertexHandle v0, VertexHandle v1, VertexHandle v2, VertexHandle v3);
 
     // ---- counts and ranges
-    // ------------------------------------------------------------------------------------------
     /// Numbers of indices in use, deleted entities included until garbage_collection().
     Index n_vertices() const { return static_cast<Index>(points_.size()); }
     Index n_cells() const { return static_cast<Index>(cells_.size()); }
     Index n_halffaces() const { return 4 * n_cells(); }
     Index n_edges() const;
+    Index n_halfedges() const { return 2 * n_edges(); }
     Index n_faces() const;
     Index n_boundary_faces() const { return n_boundary_; }
 
     /// All that are not deleted, in ascending order, as smart handles.
     EntityRange<VertexHandle> vertices() const;
     EntityRange<EdgeHandle> edges() const;
+    EntityRange<HalfedgeHandle> halfedges() const;
     EntityRange<FaceHandle> faces() const;
     EntityRange<CellHandle> cells() const;
     EntityRange<HalffaceHandle> halffaces() const;
@@ -89,14 +85,12 @@ class TetMesh {
     EntityRange<FaceHandle> boundary_faces() const;
 
     // ---- geometry
-    // ---------------------------------------------------------------------------------------------------
     const Point& point(VertexHandle v) const { return points_[v.idx()]; }
     void set_point(VertexHandle v, const Point& p) { points_[v.idx()] = p; }
     std::span<const Point> points() const { return {points_.data(), points_.size()}; }
     std::array<Point, 4> cell_points(CellHandle c) const;
 
     // ---- cells and half-faces
-    // ---------------------------------------------------------------------------------------
     std::array<VertexHandle, 4> cell_vertices(CellHandle c) const;
     VertexHandle cell_vertex(CellHandle c, int local) const { return VertexHandle(cells_[c.idx()][local]); }
     /// The vertices of every cell, by cell index.
@@ -127,10 +121,10 @@ class TetMesh {
     bool is_boundary(CellHandle c) const;
     bool is_boundary(VertexHandle v) const;
     bool is_boundary(EdgeHandle e) const;
+    bool is_boundary(HalfedgeHandle h) const { return is_boundary(edge_handle(h)); }
     bool is_boundary(FaceHandle f) const { return is_boundary(halfface_handle(f, 0)); }
 
     // ---- incidence
-    // --------------------------------------------------------------------------------------------------
     /// Cells at a vertex. Cost: their number.
     CellList vc_range(VertexHandle v) const;
     /// Vertices that share an edge with a vertex, ascending.
@@ -148,7 +142,6 @@ class TetMesh {
     CellList cc_range(CellHandle c) const;
 
     // ---- edges and faces by handle
-    // ----------------------------------------------------------------------------------
     /// Numbers them now if they aren't; release_* forgets the numbers, which has_* tells. Properties need
     /// them.
     void request_edges() const;
@@ -185,7 +178,6 @@ class TetMesh {
     EdgeList fe_range(FaceHandle f) const;
 
     // ---- edits
-    // ------------------------------------------------------------------------------------------------------
     /// Splits the edge, and every cell round it, at a new vertex; `ratio` places it between the edge's ends,
     /// m = (1 - ratio) a + ratio b, a being the end that comes first in the cell given, and says how
     /// extensive quantities are shared. Each old cell keeps its index for the child with a; the children with
@@ -219,33 +211,36 @@ class TetMesh {
     }
     bool is_deleted(EdgeHandle e) const;
     bool is_deleted(FaceHandle f) const;
+    bool is_deleted(HalfedgeHandle h) const { return is_deleted(edge_handle(h)); }
     bool is_deleted(HalffaceHandle hf) const { return is_deleted(incident_cell(hf)); }
-    /// In OpenMesh's words: mesh.status(h).deleted().
-    struct Status {
-        bool is_deleted;
-        bool deleted() const { return is_deleted; }
-    };
-    template <class H>
-    Status status(H h) const {
-        return {is_deleted(h)};
-    }
     bool has_deleted() const { return !deleted_cells_.empty() || !deleted_vertices_.empty(); }
     /// Takes deleted entities out; the others keep their order. Sets and properties follow.
     IndexMaps garbage_collection();
 
+    /// The mesh of these vertices and cells alone, in this order, with their sets and properties (and numbers
+    /// of edges and faces, if they are numbered here). Throws std::invalid_argument where a vertex or cell is
+    /// given twice or isn't there, or a cell's vertex isn't given.
+    TetMesh taken(std::span<const VertexHandle> vertices, std::span<const CellHandle> cells) const;
+    /// Puts the other mesh's entities, sets and properties behind this one's; nothing is joined where the two
+    /// touch. Sets and properties of the same name and kind become one, with the rule that they have here;
+    /// where only one of the two has a property, the other's entities get its default. Throws InputError
+    /// where a property of the same name has another type, or both together are too large.
+    void append(const TetMesh& other);
+
     // ---- properties
-    // -------------------------------------------------------------------------------------------------
     template <class Entity, class T>
     void add_property(PropertyHandle<Entity, T>& ph, const std::string& name,
-                      PropertyHeritage<T> heritage = PropertyHeritage<T>{}, T default_value = T{});
+                      std::type_identity_t<PropertyHeritage<T>> heritage = {},
+                      std::type_identity_t<T> default_value = initial_value<T>());
     template <class Entity, class T>
     bool get_property_handle(PropertyHandle<Entity, T>& ph, const std::string& name) const;
     template <class Entity, class T>
     void remove_property(PropertyHandle<Entity, T>& ph);
     template <class Entity, class T>
-    typename Property<T>::Stored& property(PropertyHandle<Entity, T> ph, Entity h);
+    typename Property<T>::Stored& property(PropertyHandle<Entity, T> ph, std::type_identity_t<Entity> h);
     template <class Entity, class T>
-    const typename Property<T>::Stored& property(PropertyHandle<Entity, T> ph, Entity h) const;
+    const typename Property<T>::Stored& property(PropertyHandle<Entity, T> ph,
+                                                 std::type_identity_t<Entity> h) const;
     /// All values, indexable by handles of the kind.
     template <class Entity, class T>
     PropertyView<Entity, T> property(PropertyHandle<Entity, T> ph) {
@@ -253,8 +248,50 @@ class TetMesh {
     }
     const PropertyList& properties(EntityKind kind) const { return properties_[static_cast<int>(kind)]; }
 
+    /// Properties of the mesh as a whole: one value each.
+    template <class T>
+    void add_property(MPropHandleT<T>& ph, const std::string& name,
+                      std::type_identity_t<T> value = initial_value<T>());
+    template <class T>
+    typename Property<T>::Stored& property(MPropHandleT<T> ph);
+    template <class T>
+    const typename Property<T>::Stored& property(MPropHandleT<T> ph) const;
+    const PropertyList& mesh_properties() const { return mesh_properties_; }
+
+    // ---- marks of entities: selected, tagged, feature, locked, hidden
+    /// Makes place for marks, a byte an entity, until they are released as often as requested. What a split
+    /// creates has the marks of what it came from.
+    template <class Entity>
+    void request_status();
+    template <class Entity>
+    void release_status();
+    template <class Entity>
+    bool has_status() const {
+        return status_requests_[static_cast<int>(kind_of<Entity>())] > 0;
+    }
+    void request_vertex_status() { request_status<VertexHandle>(); }
+    void request_edge_status() { request_status<EdgeHandle>(); }
+    void request_face_status() { request_status<FaceHandle>(); }
+    void request_cell_status() { request_status<CellHandle>(); }
+    void release_vertex_status() { release_status<VertexHandle>(); }
+    void release_edge_status() { release_status<EdgeHandle>(); }
+    void release_face_status() { release_status<FaceHandle>(); }
+    void release_cell_status() { release_status<CellHandle>(); }
+    bool has_vertex_status() const { return has_status<VertexHandle>(); }
+    bool has_edge_status() const { return has_status<EdgeHandle>(); }
+    bool has_face_status() const { return has_status<FaceHandle>(); }
+    bool has_cell_status() const { return has_status<CellHandle>(); }
+    /// Whether the entity is deleted, and its marks.
+    Status status(VertexHandle v) { return {is_deleted(v), status_bits(v)}; }
+    Status status(EdgeHandle e) { return {is_deleted(e), status_bits(e)}; }
+    Status status(FaceHandle f) { return {is_deleted(f), status_bits(f)}; }
+    Status status(CellHandle c) { return {is_deleted(c), status_bits(c)}; }
+    ConstStatus status(VertexHandle v) const { return {is_deleted(v), status_bits(v)}; }
+    ConstStatus status(EdgeHandle e) const { return {is_deleted(e), status_bits(e)}; }
+    ConstStatus status(FaceHandle f) const { return {is_deleted(f), status_bits(f)}; }
+    ConstStatus status(CellHandle c) const { return {is_deleted(c), status_bits(c)}; }
+
     // ---- named sets
-    // -------------------------------------------------------------------------------------------------
     /// A new, empty set. Throws std::invalid_argument where the kind has a set of that name or the rule
     /// doesn't fit it.
     SetHandle add_set(const std::string& name, EntityKind kind, SetRule rule);
@@ -335,6 +372,10 @@ class TetMesh {
     Property<T>& values(PropertyHandle<Entity, T> ph) const;
     template <class Entity>
     static constexpr EntityKind kind_of();
+    template <class Entity>
+    PropertyList& list_of() const;
+    template <class Entity>
+    StatusBits* status_bits(Entity h) const;
     PropertyList& properties_of(EntityKind kind) const { return properties_[static_cast<int>(kind)]; }
     std::size_t n_indices(EntityKind kind) const;
 
@@ -348,6 +389,9 @@ class TetMesh {
     void number_new_cell(CellHandle c);
     void forget_numbers(CellHandle c);
     void inherit_sets_from_neighbors(CellHandle c);
+    void append_sets(const TetMesh& other);
+    void append_numbers(const TetMesh& other);
+    void append_properties(const TetMesh& other);
 
     VertexHandle split_between(VertexHandle a, VertexHandle b, double ratio, const CellList& ring);
     SplitLocals locals_of(CellHandle c, VertexHandle a, VertexHandle b) const;
@@ -388,6 +432,8 @@ class TetMesh {
 
     mutable std::array<PropertyList, 4>
         properties_;  ///< by EntityKind; edges' and faces' grow when they are numbered
+    mutable PropertyList mesh_properties_;
+    std::array<std::uint32_t, 4> status_requests_{}, status_property_{};  ///< by EntityKind
     NamedSets sets_;
     Column<CombinationId> vertex_combinations_;  ///< empty while no vertex is in a set
     Column<NamedSets::RowId> cell_rows_;         ///< empty while no edge, face or cell is in a set
@@ -424,5 +470,6 @@ inline CellList TetMesh::cc_range(CellHandle c) const {
 
 }  // namespace maille::volmesh
 
+#include "volmesh/smart_handles.hh"        // IWYU pragma: export
 #include "volmesh/tet_mesh_properties.hh"  // IWYU pragma: export
 #include "volmesh/tet_ranges.hh"           // IWYU pragma: export

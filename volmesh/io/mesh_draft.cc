@@ -57,8 +57,28 @@ std::pair<CellHandle, int> edge_place_of(const TetMesh& mesh, const std::array<I
     return {cells.front(), mesh.local_edge(cells.front(), a, b)};
 }
 
+/// Makes the set, with its rule; before it the one that the rule looks at.
+SetHandle made_set(TetMesh& mesh, const MeshDraft& draft, const MeshDraft::Set& set) {
+    if (const SetHandle there = mesh.find_set(set.name, set.kind); there.is_valid()) return there;
+    if (!set.rule) return mesh.add_set(set.name, set.kind);
+    SetRule rule{set.rule->kind, {}, {}};
+    if (const auto& named = set.rule->source) {
+        const MeshDraft::Set* source = draft.find_set(named->second, named->first);
+        // What a rule looks at is no set of vertices, and has no such rule itself.
+        if (source == nullptr || source->kind == EntityKind::vertex)
+            throw InputError(fmt::format("the rule of set '{}' looks at a set '{}', which there is not",
+                                         set.name, named->second));
+        rule.source = made_set(mesh, draft, *source);
+    }
+    try {
+        return mesh.add_set(set.name, set.kind, rule);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(error.what());
+    }
+}
+
 void insert_members(TetMesh& mesh, const MeshDraft& draft, const MeshDraft::Set& set) {
-    const SetHandle s = mesh.add_set(set.name, set.kind);
+    const SetHandle s = made_set(mesh, draft, set);
     for (Index member : set.members) {
         switch (set.kind) {
             case EntityKind::vertex:
@@ -87,6 +107,11 @@ MeshDraft::Set& MeshDraft::set(const std::string& name, EntityKind kind) {
     return sets[at->second];
 }
 
+const MeshDraft::Set* MeshDraft::find_set(const std::string& name, EntityKind kind) const {
+    const auto at = set_numbers_.find({name, kind});
+    return at == set_numbers_.end() ? nullptr : &sets[at->second];
+}
+
 std::string group_name(long long number) {
     return fmt::format("group{}", number);
 }
@@ -104,6 +129,7 @@ TetMesh assemble(MeshDraft draft, const std::filesystem::path& path) {
         TetMesh mesh = TetMesh::from_cells(std::move(draft.points), std::move(draft.cells));
         for (const MeshDraft::Set& set : draft.sets) insert_members(mesh, draft, set);
         add_fields(mesh, draft.fields);
+        add_mesh_values(mesh, draft.mesh_values);
         return mesh;
     } catch (const InputError& error) {
         throw InputError(path.string() + ": " + error.what());

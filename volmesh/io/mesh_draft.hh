@@ -3,11 +3,13 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "volmesh/io/fields.hh"
+#include "volmesh/io/rule_text.hh"
 #include "volmesh/tet_mesh.hh"
 
 namespace maille::volmesh::io {
@@ -21,6 +23,7 @@ struct MeshDraft {
         std::string name;
         EntityKind kind;
         std::vector<Index> members;
+        std::optional<RuleDraft> rule{};  ///< none: the kind's usual one
     };
 
     std::vector<Point> points;
@@ -30,9 +33,12 @@ struct MeshDraft {
     std::vector<std::array<Index, 3>> faces;
     std::vector<Set> sets;
     std::vector<Field> fields;
+    std::vector<MeshValue> mesh_values;
 
     /// The set of that name and kind, made where there is none. Valid until the next one is made.
     Set& set(const std::string& name, EntityKind kind);
+    /// That set if there is one.
+    const Set* find_set(const std::string& name, EntityKind kind) const;
 
   private:
     std::map<std::pair<std::string, EntityKind>, std::size_t> set_numbers_;

@@ -26,7 +26,7 @@ bool is_stl(const Path& path) {
 }  // namespace
 
 void write_surface(const TetMesh& mesh, const Path& path) {
-    const BoundarySurface boundary = volmesh::boundary(mesh);
+    const ExtractedSurface boundary = volmesh::boundary(mesh);
     std::ostringstream text;
     // STL is binary nearly everywhere, and OpenMesh's text of it puzzles some readers; the others are text.
     const auto encoding =

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "volmesh/named_sets.hh"
 
@@ -43,6 +44,11 @@ inline constexpr const char* type_name<std::int64_t> = "Int64";
 inline constexpr std::array kind_names{"vertex", "edge", "face", "cell"};
 constexpr const char* kind_name(EntityKind kind) {
     return kind_names[static_cast<std::size_t>(kind)];
+}
+
+/// Our attribute that tells the rule of the set of that kind: "vertex_rule".
+inline std::string rule_attribute(EntityKind kind) {
+    return std::string(kind_name(kind)) + "_rule";
 }
 
 }  // namespace maille::volmesh::io::vtk

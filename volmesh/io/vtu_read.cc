@@ -137,6 +137,8 @@ class VtuReader {
             read_point_data(array);
         for (pugi::xml_node array : file_.piece().child("CellData").children("DataArray"))
             read_cell_data(array);
+        for (pugi::xml_node array : file_.piece().parent().child("FieldData").children("DataArray"))
+            read_field_data(array);
         return std::move(draft_);
     }
 
@@ -157,10 +159,12 @@ class VtuReader {
     void add_cell(std::int64_t type, std::span<const std::int64_t> vertices);
     void read_point_data(pugi::xml_node node);
     void read_cell_data(pugi::xml_node node);
+    void read_field_data(pugi::xml_node node);
+    void read_mesh_value(const std::string& name, const VtuFile::Array& array);
     bool read_set(pugi::xml_node node, const VtuFile::Array& array);
     void add_members(const std::string& name, EntityKind kind, const std::vector<Index>& members);
     void read_groups(const std::vector<std::int64_t>& groups);
-    void add_field(const std::string& name, EntityKind kind, const VtuFile::Array& array,
+    void add_field(pugi::xml_node node, EntityKind kind, const VtuFile::Array& array,
                    std::vector<double> values);
 
     VtuFile file_;
@@ -280,12 +284,20 @@ void VtuReader::add_cell(std::int64_t type, std::span<const std::int64_t> vertic
     }
 }
 
-void VtuReader::add_field(const std::string& name, EntityKind kind, const VtuFile::Array& array,
+void VtuReader::add_field(pugi::xml_node node, EntityKind kind, const VtuFile::Array& array,
                           std::vector<double> values) {
     FieldType type = FieldType::real64;
     if (array.numbers.type == "Float32") type = FieldType::real32;
     if (!array.numbers.is_real()) type = smallest_integer_type(values);
-    append_field(draft_.fields, name, kind, type, array.n_components, std::move(values));
+    const std::size_t n_before = draft_.fields.size();
+    append_field(draft_.fields, node.attribute("Name").value(), kind, type, array.n_components,
+                 std::move(values));
+    // Ours, which are never taken apart, may tell more.
+    if (draft_.fields.size() != n_before + 1) return;
+    Field& field = draft_.fields.back();
+    if (const auto rule = node.attribute("rule")) field.rule = parse_property_rule(rule.value());
+    if (const auto text = node.attribute("default"))
+        field.default_value = vtk::Numbers{"Float64", true, text.value()}.as_reals();
 }
 
 void VtuReader::read_point_data(pugi::xml_node node) {
@@ -293,7 +305,7 @@ void VtuReader::read_point_data(pugi::xml_node node) {
         std::vector<double> values = array.numbers.as_reals();
         if (values.size() != n_points_ * array.n_components)
             throw InputError(fmt::format("{} values for {} points", values.size(), n_points_));
-        add_field(node.attribute("Name").value(), EntityKind::vertex, array, std::move(values));
+        add_field(node, EntityKind::vertex, array, std::move(values));
     });
 }
 
@@ -310,8 +322,45 @@ void VtuReader::read_cell_data(pugi::xml_node node) {
         for (std::size_t i = 0; i < n_cells_; ++i)
             if (places_[i].first == EntityKind::cell)
                 values.insert(values.end(), &all[i * n], &all[i * n] + n);
-        add_field(name, EntityKind::cell, array, std::move(values));
+        add_field(node, EntityKind::cell, array, std::move(values));
     });
+}
+
+/// Ours only: others' say nothing of the mesh's parts.
+void VtuReader::read_field_data(pugi::xml_node node) {
+    const std::string_view of = node.attribute("of").value();
+    if (of.empty()) return;
+    with_array(node, [&](const VtuFile::Array& array) {
+        const std::string name = node.attribute("Name").value();
+        if (of == "mesh text") {
+            const auto bytes = array.numbers.as_integers();
+            draft_.mesh_values.push_back({name, std::string(bytes.begin(), bytes.end())});
+        } else if (of == "mesh") {
+            read_mesh_value(name, array);
+        } else if (of == vtk::kind_name(EntityKind::edge)) {
+            add_field(node, EntityKind::edge, array, array.numbers.as_reals());
+        } else if (of == vtk::kind_name(EntityKind::face)) {
+            add_field(node, EntityKind::face, array, array.numbers.as_reals());
+        } else {
+            throw InputError(fmt::format("there is nothing of which '{}' could be", of));
+        }
+    });
+}
+
+void VtuReader::read_mesh_value(const std::string& name, const VtuFile::Array& array) {
+    const std::vector<double> values = array.numbers.as_reals();
+    const std::string& type = array.numbers.type;
+    if (values.size() == 3) {
+        draft_.mesh_values.push_back({name, Eigen::Vector3d(values[0], values[1], values[2])});
+    } else if (values.size() != 1) {
+        throw InputError(fmt::format("{} numbers for one mesh", values.size()));
+    } else if (type == "Float32") {
+        draft_.mesh_values.push_back({name, static_cast<float>(values[0])});
+    } else if (!array.numbers.is_real() && smallest_integer_type(values) == FieldType::int32) {
+        draft_.mesh_values.push_back({name, static_cast<std::int32_t>(values[0])});
+    } else {
+        draft_.mesh_values.push_back({name, values[0]});
+    }
 }
 
 /// Whether the array tells sets: ours by its attribute, others' if it has only 0 and 1 in bytes; or meshio's
@@ -339,7 +388,10 @@ bool VtuReader::read_set(pugi::xml_node node, const VtuFile::Array& array) {
         const auto kind = std::ranges::find(vtk::kind_names, word);
         if (kind == vtk::kind_names.end())
             throw InputError(fmt::format("there is no kind of set '{}'", word));
-        draft_.set(name, static_cast<EntityKind>(kind - vtk::kind_names.begin()));
+        const auto kind_of_set = static_cast<EntityKind>(kind - vtk::kind_names.begin());
+        MeshDraft::Set& set = draft_.set(name, kind_of_set);
+        if (const auto rule = node.attribute(vtk::rule_attribute(kind_of_set).c_str()))
+            set.rule = parse_set_rule(rule.value(), kind_of_set);
     }
     std::array<std::vector<Index>, 4> members;
     for (std::size_t i = 0; i < n_cells_; ++i)

@@ -12,6 +12,7 @@
 #include "volmesh/io/fields.hh"
 #include "volmesh/io/formats.hh"
 #include "volmesh/io/output_file.hh"
+#include "volmesh/io/rule_text.hh"
 #include "volmesh/io/set_elements.hh"
 #include "volmesh/io/vtk_arrays.hh"
 #include "volmesh/io/vtk_names.hh"
@@ -31,7 +32,8 @@ class VtuTree {
                                           {"header_type", "UInt64"},
                                           {"compressor", "vtkZLibDataCompressor"}})
             root.append_attribute(name) = value;
-        piece_ = root.append_child("UnstructuredGrid").append_child("Piece");
+        grid_ = root.append_child("UnstructuredGrid");
+        piece_ = grid_.append_child("Piece");
         piece_.append_attribute("NumberOfPoints") = static_cast<unsigned long long>(n_points);
         piece_.append_attribute("NumberOfCells") = static_cast<unsigned long long>(n_cells);
         for (const char* section : {"PointData", "CellData", "Points", "Cells"}) piece_.append_child(section);
@@ -40,15 +42,17 @@ class VtuTree {
     template <class T>
     pugi::xml_node add(const char* section, const std::string& name, std::span<const T> values,
                        int n_components = 1) {
-        auto array = piece_.child(section).append_child("DataArray");
-        array.append_attribute("type") = vtk::type_name<T>;
-        array.append_attribute("Name") = name.c_str();
-        if (n_components > 1) array.append_attribute("NumberOfComponents") = n_components;
-        array.append_attribute("format") = "appended";
-        array.append_attribute("offset") = static_cast<unsigned long long>(offset_);
-        arrays_.push_back(
-            vtk::compressed({reinterpret_cast<const char*>(values.data()), values.size_bytes()}));
-        offset_ += arrays_.back().size();
+        return add(piece_.child(section), name, values, n_components);
+    }
+
+    /// What is of the whole grid, or of neither its points nor its cells.
+    template <class T>
+    pugi::xml_node add_field_data(const std::string& name, std::span<const T> values, int n_components = 1) {
+        auto section = grid_.child("FieldData");
+        if (!section) section = grid_.prepend_child("FieldData");
+        auto array = add(section, name, values, n_components);
+        array.append_attribute("NumberOfTuples") =
+            static_cast<unsigned long long>(values.size() / static_cast<std::size_t>(n_components));
         return array;
     }
 
@@ -65,8 +69,23 @@ class VtuTree {
     }
 
   private:
+    template <class T>
+    pugi::xml_node add(pugi::xml_node section, const std::string& name, std::span<const T> values,
+                       int n_components) {
+        auto array = section.append_child("DataArray");
+        array.append_attribute("type") = vtk::type_name<T>;
+        array.append_attribute("Name") = name.c_str();
+        if (n_components > 1) array.append_attribute("NumberOfComponents") = n_components;
+        array.append_attribute("format") = "appended";
+        array.append_attribute("offset") = static_cast<unsigned long long>(offset_);
+        arrays_.push_back(
+            vtk::compressed({reinterpret_cast<const char*>(values.data()), values.size_bytes()}));
+        offset_ += arrays_.back().size();
+        return array;
+    }
+
     pugi::xml_document document_;
-    pugi::xml_node piece_;
+    pugi::xml_node grid_, piece_;
     std::vector<std::string> arrays_;
     std::size_t offset_ = 0;
 };
@@ -111,10 +130,20 @@ void add_connectivity(VtuTree& tree, const TetMesh& mesh, const LowerCells& lowe
 }
 
 template <class T>
-void add_field(VtuTree& tree, const Field& field, const std::vector<double>& values) {
-    const char* section = field.kind == EntityKind::vertex ? "PointData" : "CellData";
+pugi::xml_node add_field(VtuTree& tree, const Field& field, const std::vector<double>& values) {
     const std::vector<T> typed(values.begin(), values.end());
-    tree.add<T>(section, field.name, typed, static_cast<int>(field.n_components()));
+    const auto n_components = static_cast<int>(field.n_components());
+    switch (field.kind) {
+        case EntityKind::vertex:
+            return tree.add<T>("PointData", field.name, typed, n_components);
+        case EntityKind::cell:
+            return tree.add<T>("CellData", field.name, typed, n_components);
+        default: {
+            auto array = tree.add_field_data<T>(field.name, typed, n_components);
+            array.append_attribute("of") = vtk::kind_name(field.kind);
+            return array;
+        }
+    }
 }
 
 void add_field(VtuTree& tree, const Field& field, const LowerCells& lower) {
@@ -125,14 +154,34 @@ void add_field(VtuTree& tree, const Field& field, const LowerCells& lower) {
             for (std::size_t k = 0; k < n; ++k)
                 values.push_back(cell.is_valid() ? field.values[cell.idx() * n + k] : 0);
     }
-    switch (field.type) {
-        case FieldType::real32:
-            return add_field<float>(tree, field, values);
-        case FieldType::int32:
-            return add_field<std::int32_t>(tree, field, values);
-        default:
-            return add_field<double>(tree, field, values);
+    auto array = field.type == FieldType::real32  ? add_field<float>(tree, field, values)
+                 : field.type == FieldType::int32 ? add_field<std::int32_t>(tree, field, values)
+                                                  : add_field<double>(tree, field, values);
+    if (field.rule) array.append_attribute("rule") = property_rule_name(*field.rule);
+    if (!field.default_value.empty()) {
+        std::string text;
+        for (double x : field.default_value) text += (text.empty() ? "" : " ") + text_of(x);
+        array.append_attribute("default") = text.c_str();
     }
+}
+
+/// A text is its bytes.
+void add_mesh_value(VtuTree& tree, const MeshValue& property) {
+    const auto add = [&](const auto* begin, std::size_t n, int n_components, const char* of) {
+        using T = std::remove_cvref_t<decltype(*begin)>;
+        tree.add_field_data<T>(property.name, {begin, n}, n_components).append_attribute("of") = of;
+    };
+    std::visit(
+        [&]<class T>(const T& value) {
+            if constexpr (std::is_same_v<T, std::string>) {
+                add(reinterpret_cast<const std::uint8_t*>(value.data()), value.size(), 1, "mesh text");
+            } else if constexpr (std::is_arithmetic_v<T>) {
+                add(&value, 1, 1, "mesh");
+            } else {
+                add(value.data(), 3, 3, "mesh");
+            }
+        },
+        property.value);
 }
 
 /// For each combination whether it has a set of that name, of whatever kind.
@@ -167,7 +216,13 @@ void add_sets(VtuTree& tree, const TetMesh& mesh, const LowerCells& lower) {
         std::string kinds;
         for (SetHandle set : sets)
             kinds += (kinds.empty() ? "" : " ") + std::string(vtk::kind_name(mesh.set_info(set).kind));
-        tree.add<std::uint8_t>("CellData", name, flags).append_attribute("kinds") = kinds.c_str();
+        auto array = tree.add<std::uint8_t>("CellData", name, flags);
+        array.append_attribute("kinds") = kinds.c_str();
+        for (SetHandle set : sets) {
+            const SetInfo& info = mesh.set_info(set);
+            if (const std::string rule = set_rule_text(mesh, info); !rule.empty())
+                array.append_attribute(vtk::rule_attribute(info.kind).c_str()) = rule.c_str();
+        }
     }
 }
 
@@ -181,7 +236,10 @@ void write_vtu(const TetMesh& mesh, const Path& path) {
     lower.add(elements.vertices, vtk::vertex);
 
     VtuTree tree(mesh.n_vertices(), mesh.n_cells() + lower.types.size());
-    for (const Field& field : fields_of(mesh)) add_field(tree, field, lower);
+    for (const Field& field :
+         fields_of(mesh, {EntityKind::vertex, EntityKind::cell, EntityKind::edge, EntityKind::face}))
+        add_field(tree, field, lower);
+    for (const MeshValue& value : mesh_values_of(mesh)) add_mesh_value(tree, value);
     add_sets(tree, mesh, lower);
     tree.add<double>(
         "Points", "Points",
