@@ -13,7 +13,6 @@ set(MAILLE_MODULES_volmesh "eigen3 fmt tbb pugixml zlib nlohmann_json openmesh")
 set(MAILLE_MODULES_quality "maille-volmesh")
 set(MAILLE_MODULES_refine "maille-quality muparser")
 set(MAILLE_MODULES_modeler "maille-quality polyclipping")
-set(MAILLE_LIBRARIES_volmesh "${MAILLE_EXODUS_FLAGS}")
 set(MAILLE_LIBRARIES_modeler "-lmpfr -lgmp")
 
 function(maille_install_room name)

@@ -41,11 +41,11 @@ struct Way {
 };
 
 const std::vector<Way>& ways() {
-    static const std::vector<Way> all{{"a.vtu", "a.vtu", ""},        {"b.msh", "b.msh", ""},
-                                      {"c.msh", "c.msh", "msh22"},   {"d.mesh", "d.mesh", ""},
-                                      {"d.mesh", "d.sets.json", ""}, {"e.node", "e.node", ""},
-                                      {"e.node", "e.ele", ""},       {"e.node", "e.face", ""},
-                                      {"e.node", "e.edge", ""},      {"f.inp", "f.inp", ""}};
+    static const std::vector<Way> all{
+        {"a.vtu", "a.vtu", ""},   {"b.msh", "b.msh", ""},        {"c.msh", "c.msh", "msh22"},
+        {"d.mesh", "d.mesh", ""}, {"d.mesh", "d.sets.json", ""}, {"e.node", "e.node", ""},
+        {"e.node", "e.ele", ""},  {"e.node", "e.face", ""},      {"e.node", "e.edge", ""},
+        {"f.inp", "f.inp", ""},   {"g.mfem", "g.mfem", ""},      {"h.e", "h.e", ""}};
     return all;
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("damaged numbers in text are read or refused") {
     const std::string words[] = {
         "-1", "nan", "1e999", "99999999999999999999", "4294967295", "18446744073709551615", "x", ""};
     for (const Way& way : ways()) {
-        if (way.damaged == "a.vtu" || way.damaged == "b.msh") continue;
+        if (way.damaged == "a.vtu" || way.damaged == "b.msh" || way.damaged == "h.e") continue;
         CAPTURE(way.damaged);
         write_mesh(small_mesh(), folder / way.read, {way.format});
         const std::string bytes = bytes_of(folder / way.damaged);
@@ -156,6 +156,20 @@ TEST_CASE("what is wrong is named with its place") {
     require_error(mesh, medit + "Hexahedra\n1\n", "Hexahedra cannot be read");
     put(folder / "a.ele", "0 10 0\n");
     require_error(folder / "a.node", "0 3 0 0\n", "quadratic tetrahedra");
+    const Path mfem = folder / "a.mfem";
+    require_error(mfem, "mesh v1.0\n", "a.mfem:1: a file of MFEM's begins with");
+    require_error(mfem, "MFEM mesh v1.0\ndimension\n2\n", "a.mfem:3: the dimension should be 3");
+    require_error(mfem, "MFEM mesh v1.0\nelements\n1\n1 5 0 1 2 3 4 5 6 7\n",
+                  "a.mfem:4: only tetrahedra (type 4)");
+    require_error(mfem, "MFEM mesh v1.0\nelements\n99999\n1 4 0 1 2 3\n",
+                  "a.mfem:3: the number of elements is said");
+    require_error(mfem, "MFEM mesh v1.0\nelements\n1\n1 4 0 1 2 3\nvertices\n1\n3\n0 0 0\n",
+                  "tetrahedron 0 has vertex 1");
+    require_error(mfem, "MFEM mesh v1.0\nvertices\n2\nnodes\nFiniteElementSpace\n", "vertices should have 3");
+    require_error(mfem, "MFEM mesh v1.3\nattribute_sets\n1\n\"East\n1 1\n", "has no closing quote");
+    require_error(folder / "a.e", "an Exodus file", "a.e: is no Exodus file");
+    require_error(folder / "a.e", std::string("CDF\x01\0\0\0\0\0\0\0\x0A\xff\xff\xff\xff", 16),
+                  "a.e: byte 16: a list is said to have 4294967295 entries");
     const Path inp = folder / "a.inp";
     require_error(inp, "*NODE\n1, 0, 0\n", "a.inp:2: a node has a number and three coordinates");
     require_error(inp, "*NODE\n1, 0, 0, inf\n", "a.inp:2: a coordinate is not a finite number");

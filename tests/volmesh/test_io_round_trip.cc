@@ -113,9 +113,9 @@ struct Way {
     bool has_properties;
 };
 
-constexpr Way ways[] = {{"a.vtu", "", true},   {"a.msh", "", true},  {"a.msh", "msh22", true},
-                        {"a.mesh", "", false}, {"a.inp", "", false}, {"a.node", "", false},
-                        {"a.ele", "", false}};
+constexpr Way ways[] = {{"a.vtu", "", true},   {"a.msh", "", true},   {"a.msh", "msh22", true},
+                        {"a.mesh", "", false}, {"a.inp", "", false},  {"a.node", "", false},
+                        {"a.ele", "", false},  {"a.mfem", "", false}, {"a.e", "", false}};
 
 }  // namespace
 
@@ -266,4 +266,34 @@ Upper, S3
     const HalffaceHandle slanted = mesh.find_halfface(VertexHandle(1), VertexHandle(2), VertexHandle(3));
     CHECK(std::ranges::count(mesh.sets_of(mesh.combination(slanted)),
                              mesh.find_set("slanted", EntityKind::face)) == 1);
+}
+
+TEST_CASE("others' files of MFEM's are read with their groups") {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a.mfem")
+        << "MFEM mesh v1.3\n\n# a comment\ndimension\n3\n\nelements\n2\n10 4 0 1 2 3\n"
+           "20 4 1 2 3 4\n\nattribute_sets\n2\n\"Both of it\" 2 10 20\nUpper 1\n20\n"
+           "\nboundary\n2\n7 2 0 2 1\n8 2 0 1 3\n\nbdr_attribute_sets\n1\n\"Floor\"\n1\n7\n"
+           "\nvertices\n5\n3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n\nmfem_mesh_end\n";
+    const TetMesh mesh = read_mesh(folder / "a.mfem");
+    CHECK(validate(mesh).ok());
+    const auto size = [&](const char* name, EntityKind kind) {
+        return mesh.set_size(mesh.find_set(name, kind));
+    };
+    CHECK(mesh.n_sets() == 4);
+    CHECK(size("Both of it", EntityKind::cell) == 2);
+    CHECK(size("Upper", EntityKind::cell) == 1);
+    CHECK(size("Floor", EntityKind::face) == 1);
+    CHECK(size("group8", EntityKind::face) == 1);
+}
+
+TEST_CASE("names that a format cannot hold are refused") {
+    const test::TemporaryFolder folder;
+    TetMesh mesh = test::kuhn_cube(1);
+    mesh.add_set("a \"quote\"", EntityKind::cell);
+    CHECK_THROWS_AS(write_mesh(mesh, folder / "a.mfem"), InputError);
+    TetMesh with_long_name = test::kuhn_cube(1);
+    with_long_name.add_set(std::string(300, 'x'), EntityKind::face);
+    CHECK_THROWS_AS(write_mesh(with_long_name, folder / "a.e"), InputError);
+    CHECK(std::filesystem::is_empty(folder.path()));
 }

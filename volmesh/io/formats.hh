@@ -23,6 +23,12 @@ void write_medit(const TetMesh& mesh, const Path& path);
 TetMesh read_abaqus(const Path& path);
 void write_abaqus(const TetMesh& mesh, const Path& path);
 
+TetMesh read_mfem(const Path& path);
+void write_mfem(const TetMesh& mesh, const Path& path);
+
+TetMesh read_exodus(const Path& path);
+void write_exodus(const TetMesh& mesh, const Path& path);
+
 /// The path is that of any one of the files; the others lie beside it.
 TetMesh read_tetgen(const Path& path);
 void write_tetgen(const TetMesh& mesh, const Path& path);

@@ -27,6 +27,9 @@ constexpr std::array formats{
     Format{".msh", "msh22", io::read_msh, io::write_msh22},
     Format{".mesh", "medit", io::read_medit, io::write_medit},
     Format{".inp", "abaqus", io::read_abaqus, io::write_abaqus},
+    Format{".mfem", "mfem", io::read_mfem, io::write_mfem},
+    Format{".e", "exodus", io::read_exodus, io::write_exodus},
+    Format{".exo", "exodus", io::read_exodus, io::write_exodus},
     Format{".node", "tetgen", io::read_tetgen, io::write_tetgen},
     Format{".ele", "tetgen", io::read_tetgen, io::write_tetgen},
     Format{".stl", "stl", nullptr, io::write_surface},
@@ -53,7 +56,8 @@ const Format& format_of(const io::Path& path, std::string_view name) {
         throw InputError(
             fmt::format("{}: the format '{}' is not one of {} files", path.string(), name, extension));
     throw InputError(
-        fmt::format("{}: the extension '{}' is not one of .vtu .msh .mesh .inp .node .ele, and for surfaces "
+        fmt::format("{}: the extension '{}' is not one of .vtu .msh .mesh .inp .mfem .e .exo .node .ele, and "
+                    "for surfaces "
                     ".stl .obj .off .ply",
                     path.string(), extension));
 }

@@ -15,7 +15,8 @@ struct WriteOptions {
 
 /// Reads a tetrahedral mesh, its named sets and its properties; the extension tells the format.
 ///
-/// .vtu, .msh (Gmsh 2.2 and 4.1, text and binary), .mesh (Medit), .node/.ele (TetGen). What write_mesh wrote
+/// .vtu, .msh (Gmsh 2.2 and 4.1, text and binary), .mesh (Medit), .inp (Abaqus), .mfem, .e/.exo (Exodus II),
+/// .node/.ele (TetGen). What write_mesh wrote
 /// comes back the same, cell by cell and bit by bit. Groups of others' files become sets: those of dimension
 /// 3, 2, 1 and 0 cell, face, edge and vertex sets; a group without a name is called `group<number>`. Cells
 /// that are inside out in the file are turned (their last two vertices change places). Fields of vertices and

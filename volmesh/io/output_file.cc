@@ -24,8 +24,8 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(temporary_beside(path_)), buffer_(new char[buffer_size]) {
+PlaceBeside::PlaceBeside(std::filesystem::path path)
+    : path_(std::move(path)), temporary_(temporary_beside(path_)) {
     const auto folder = path_.parent_path();
     std::error_code ignored;
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
@@ -33,15 +33,26 @@ OutputFile::OutputFile(std::filesystem::path path)
             fmt::format("{}: cannot be written: there is no folder {}", path_.string(), folder.string()));
     if (std::filesystem::is_directory(path_, ignored))
         throw InputError(fmt::format("{}: cannot be written: it is a folder", path_.string()));
-    file_.reset(std::fopen(temporary_.c_str(), "wbx"));
-    if (!file_) fail();
 }
 
-OutputFile::~OutputFile() {
+PlaceBeside::~PlaceBeside() {
     if (temporary_.empty()) return;
-    file_.reset();
     std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
+}
+
+void PlaceBeside::commit() {
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
+    temporary_.clear();
+}
+
+void PlaceBeside::fail() const {
+    throw InputError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
+}
+
+OutputFile::OutputFile(std::filesystem::path path) : place_(std::move(path)), buffer_(new char[buffer_size]) {
+    file_.reset(std::fopen(place_.temporary().c_str(), "wbx"));
+    if (!file_) place_.fail();
 }
 
 OutputFile& OutputFile::operator<<(std::string_view text) {
@@ -68,15 +79,14 @@ void OutputFile::write_bytes(const void* data, std::size_t size) {
         used_ += size;
     } else {
         flush();
-        if (std::fwrite(data, 1, size, file_.get()) != size) fail();
+        if (std::fwrite(data, 1, size, file_.get()) != size) place_.fail();
     }
 }
 
 void OutputFile::commit() {
     flush();
-    if (std::fclose(file_.release()) != 0) fail();
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
-    temporary_.clear();
+    if (std::fclose(file_.release()) != 0) place_.fail();
+    place_.commit();
 }
 
 char* OutputFile::room_for(std::size_t n) {
@@ -85,12 +95,8 @@ char* OutputFile::room_for(std::size_t n) {
 }
 
 void OutputFile::flush() {
-    if (std::fwrite(buffer_.get(), 1, used_, file_.get()) != used_) fail();
+    if (std::fwrite(buffer_.get(), 1, used_, file_.get()) != used_) place_.fail();
     used_ = 0;
-}
-
-void OutputFile::fail() const {
-    throw InputError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
 }
 
 }  // namespace maille::volmesh::io

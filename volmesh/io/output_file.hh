@@ -10,12 +10,31 @@
 
 namespace maille::volmesh::io {
 
+/// A place for a file and, in the same folder, one for writing it until it is whole. What is left beside is
+/// removed with the object. Throws InputError, naming the path, where the place cannot be written to.
+class PlaceBeside {
+  public:
+    explicit PlaceBeside(std::filesystem::path path);
+    ~PlaceBeside();
+    PlaceBeside(const PlaceBeside&) = delete;
+    PlaceBeside& operator=(const PlaceBeside&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& temporary() const { return temporary_; }
+    /// Puts what is beside in its place.
+    void commit();
+    /// Throws what the system says of the last error.
+    [[noreturn]] void fail() const;
+
+  private:
+    std::filesystem::path path_, temporary_;
+};
+
 /// A file that is written beside its place and put there by commit(); without it nothing is left.
 /// Throws InputError, naming the path, where the folder is missing or the disk is full.
 class OutputFile {
   public:
     explicit OutputFile(std::filesystem::path path);
-    ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
@@ -46,9 +65,8 @@ class OutputFile {
     /// A place in the buffer with n free bytes; `used_` is to be raised by what is written there.
     char* room_for(std::size_t n);
     void flush();
-    [[noreturn]] void fail() const;
 
-    std::filesystem::path path_, temporary_;
+    PlaceBeside place_;
     std::unique_ptr<std::FILE, Close> file_;
     std::unique_ptr<char[]> buffer_;
     std::size_t used_ = 0;
