@@ -40,7 +40,7 @@ struct Case {
 TEST_CASE("a mesh within the budget is sent whole") {
     Case c(4);
     c.mesh.delete_cell(CellHandle(7));
-    const Selection all = html::select_cells(c.mesh, c.grid, c.quantities, 383);
+    const Selection all = html::select_cells(c.mesh, c.grid, c.quantities, {}, 383);
     CHECK(all.is_whole);
     CHECK(all.cells.size() == 383);
     CHECK(!std::ranges::binary_search(all.cells, 7U));
@@ -49,9 +49,10 @@ TEST_CASE("a mesh within the budget is sent whole") {
 
 TEST_CASE("of a larger mesh, all that can be seen is sent, and the worst") {
     const Case c(16);
+    const std::array listed{CellHandle(12345), CellHandle(20001)};
     std::size_t cuts = 0;
     for (const std::size_t budget : {1U, 6000U, 9000U, 19000U}) {
-        const Selection selection = html::select_cells(c.mesh, c.grid, c.quantities, budget);
+        const Selection selection = html::select_cells(c.mesh, c.grid, c.quantities, listed, budget);
         CAPTURE(budget);
         CHECK(!selection.is_whole);
         CHECK(std::ranges::is_sorted(selection.cells));
@@ -80,6 +81,8 @@ TEST_CASE("of a larger mesh, all that can be seen is sent, and the worst") {
             }
         }
         CHECK(missing == 0);
+
+        for (const CellHandle cell : listed) CHECK(is_in(cell));
 
         CHECK(selection.n_worst == budget / 4 / c.quantities.size());
         for (const html::Quantity& q : c.quantities) {

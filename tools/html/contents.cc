@@ -79,6 +79,14 @@ Json selection_json(const Selection& selection) {
             {"cuts", selection.cuts}};
 }
 
+std::vector<CellHandle> listed_cells(const quality::Report& report) {
+    std::vector<CellHandle> cells;
+    for (const quality::WorstCell& worst : report.worst) cells.push_back(worst.cell);
+    if (report.critical)
+        for (const quality::WorstCell& worst : report.critical->worst) cells.push_back(worst.cell);
+    return cells;
+}
+
 void add_cells(Contents& contents, const TetMesh& mesh, const Selection& selection,
                const std::vector<Quantity>& quantities, FirstUse& points) {
     Combinations combinations;
@@ -147,7 +155,7 @@ void add_sets(Contents& contents, const TetMesh& mesh, std::size_t budget, First
 Contents contents_of(const TetMesh& mesh, const quality::Report& report, const PageOptions& options) {
     const std::vector<Quantity> quantities = quantities_of(mesh, report, options.size, options.errors);
     const Grid grid = grid_of(mesh);
-    const Selection selection = select_cells(mesh, grid, quantities, options.max_cells);
+    const Selection selection = select_cells(mesh, grid, quantities, listed_cells(report), options.max_cells);
     Contents contents;
     contents.figures = {{"title", options.title},
                         {"vertices", mesh.n_vertices()},

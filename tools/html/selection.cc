@@ -104,7 +104,7 @@ void mark_cuts(Selection& selection, const Grid& grid, const TetMesh& mesh, std:
 }  // namespace
 
 Selection select_cells(const TetMesh& mesh, const Grid& grid, std::span<const Quantity> quantities,
-                       std::size_t budget) {
+                       std::span<const CellHandle> listed, std::size_t budget) {
     Selection selection;
     std::vector<char> is_in(mesh.n_cells());
     std::size_t n_cells = 0;
@@ -116,6 +116,7 @@ Selection select_cells(const TetMesh& mesh, const Grid& grid, std::span<const Qu
     } else {
         selection.n_worst = budget / 4 / quantities.size();
         for (const CellHandle c : mesh.cells()) is_in[c.idx()] = is_seen_uncut(mesh, c);
+        for (const CellHandle c : listed) is_in[c.idx()] = true;
         for (const Quantity& quantity : quantities) mark_worst(mesh, quantity, selection.n_worst, is_in);
         const auto n_so_far = static_cast<std::size_t>(std::ranges::count(is_in, true));
         mark_cuts(selection, grid, mesh, budget > n_so_far ? budget - n_so_far : 0, is_in);

@@ -20,12 +20,12 @@ struct Selection {
 };
 
 /// All cells if there are no more than `budget`. Otherwise those that are seen from outside, or where the
-/// combination of sets changes, or one of `cuts` is seen; and the worst by each quantity, with a quarter of
-/// the budget. The more cells the budget leaves, the more cuts there are, at least one an axis: the budget is
-/// passed where the boundary and these are larger than it.
+/// combination of sets changes, or one of `cuts` is seen; those that are listed; and the worst by each
+/// quantity, with a quarter of the budget. The more cells the budget leaves, the more cuts there are, at
+/// least one an axis: the budget is passed where the boundary and these are larger than it.
 ///
 /// A cell is below a cut at p where the sum of its four coordinates is at most 4 p.
 Selection select_cells(const volmesh::TetMesh& mesh, const Grid& grid, std::span<const Quantity> quantities,
-                       std::size_t budget);
+                       std::span<const volmesh::CellHandle> listed, std::size_t budget);
 
 }  // namespace maille::html

@@ -1,6 +1,7 @@
 // The criteria, and bad shape; a click on one shows the elements that it counts.
 
-import {count, element, percent} from './format.js';
+import {element} from './dom.js';
+import {count, percent} from './format.js';
 
 /** By the names of the report. Their limits are edges of bins, which codes keep exactly; that of phi's is not. */
 function tests(mesh, meanError) {
@@ -25,14 +26,16 @@ export function makeBands(parent, mesh, report, state) {
     return {name, text: percent(part), cells: isOutside ? report.cells - cells : cells,
             title: isOutside ? 'Show the elements outside' : 'Show these elements'};
   });
-  const add = (name, {cells, percent: part}) =>
-    rows.push({name, text: cells ? `${count(cells)}, ${percent(part)}` : 'none', cells, isBad: cells > 0, title: 'Show these elements'});
+  const add = (name, {cells, percent: part}) => rows.push({
+    name, text: cells ? `${count(cells)}, ${percent(part)}` : 'none', cells, isBad: cells > 0, title: 'Show these elements'});
   add('bad shape', report.bad_shape);
   if (report.critical) add('critical', report.critical);
   for (const {name, text, cells, isBad, title} of rows) {
     const show = () => state.choose(state.chosen?.name === name ? null : {name, count: cells, test: testOf[name]});
-    const button = element('button', {type: 'button', class: 'plain', title, disabled: cells === 0, onclick: show}, name.replaceAll('<', ' < '));
-    parent.append(element('tr', {'data-band': name}, element('th', {}, button), element('td', {class: isBad ? 'number bad' : 'number'}, text)));
+    const button = element('button', {type: 'button', class: 'plain', title, disabled: cells === 0, onclick: show},
+                           name.replaceAll('<', ' < '));
+    parent.append(element('tr', {'data-band': name}, element('th', {}, button),
+                          element('td', {class: isBad ? 'number bad' : 'number'}, text)));
     state.onChange(() => button.classList.toggle('current', state.chosen?.name === name));
   }
 }

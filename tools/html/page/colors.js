@@ -6,8 +6,9 @@ const SPECTRAL = [[158, 1, 66], [213, 62, 79], [244, 109, 67], [253, 174, 97], [
 const SETS = [0x4e79a7, 0xf28e2b, 0x59a14f, 0xe15759, 0x76b7b2, 0xedc948, 0xb07aa1, 0xff9da7, 0x9c755f, 0x8c8c94];
 export const NO_SET = [150, 155, 165];
 
-export function goodnessColor(goodness) {
-  const place = goodness * (SPECTRAL.length - 1);
+/** 0 is the best, 1 and more the worst. */
+export function badnessColor(badness) {
+  const place = (1 - Math.min(1, badness)) * (SPECTRAL.length - 1);
   const i = Math.min(Math.floor(place), SPECTRAL.length - 2);
   return SPECTRAL[i].map((c, k) => Math.round(c + (place - i) * (SPECTRAL[i + 1][k] - c)));
 }

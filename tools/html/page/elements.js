@@ -1,6 +1,7 @@
 // The element that is looked at, and the lists of the worst and of the critical ones.
 
-import {count, element, figure, withUnit} from './format.js';
+import {element} from './dom.js';
+import {count, figure, withUnit} from './format.js';
 
 const N_LISTED = 100;
 
@@ -15,20 +16,30 @@ function pairs(list) {
 
 /** Of the cells that the page carries the worst, worst first. */
 function worstCells(mesh, quantity) {
-  const badness = Float32Array.from({length: mesh.n}, (_, c) => 1 - quantity.goodness(quantity.value(c)));
+  const badness = Float32Array.from({length: mesh.n}, (_, c) => quantity.badness(quantity.value(c)));
   const least = badness.slice().sort()[Math.max(0, mesh.n - N_LISTED)];
   const cells = [];
   for (let c = 0; c < mesh.n; ++c) if (badness[c] >= least) cells.push(c);
   return cells.sort((a, b) => badness[b] - badness[a] || a - b).slice(0, N_LISTED);
 }
 
+/** The place and the sets of a cell, as names and texts. */
+function whereabouts(mesh, cell) {
+  return [['at', mesh.place(cell)], ['in', mesh.setsOfCell(cell).join(', ') || 'no set'],
+          ['touches', mesh.setsTouched(cell).join(', ') || 'no face set']];
+}
+
+function shortName(quantity) {
+  return quantity.name.replace('dihedral_', '\u2220 ').replace('solid_angle_', '\u03a9 ').replace('_', ' ');
+}
+
 /** A place to type an element's number. */
 function finder(mesh, actions, tell) {
-  const byNumber = new Map(Array.from(mesh.numbers, (n, c) => [n, c]));
-  const input = element('input', {type: 'text', inputmode: 'numeric', size: 9, placeholder: 'find number', 'aria-label': 'Find an element by its number'});
+  const input = element('input', {type: 'text', inputmode: 'numeric', placeholder: 'find number',
+                                  'aria-label': 'Find an element by its number'});
   input.addEventListener('change', () => {
-    const number = Number(input.value.replace(/[ ,]/g, ''));
-    if (byNumber.has(number)) actions.lookAt(byNumber.get(number));
+    const cell = mesh.byNumber.get(Number(input.value.replace(/[ ,]/g, '')));
+    if (cell !== undefined) actions.lookAt(cell);
     else tell(`This page carries no element ${input.value}.`);
   });
   return input;
@@ -43,11 +54,9 @@ export function makeElementPanel(parent, mesh, state, actions, tell) {
       parent.append(element('p', {class: 'empty'}, 'Click on an element of the mesh or of a list below.'));
       return;
     }
-    const sets = mesh.setsOfCell(c).map((i) => mesh.sets[i].name);
-    const touched = mesh.setsTouched(c);
-    const facts = [['number', count(mesh.numbers[c])], ['at', mesh.place(c)],
-                   ['in', sets.join(', ') || 'no set'], ['touches', touched.join(', ') || 'no face set']];
-    const values = mesh.quantities.map((q) => [q.name.replace('dihedral_', '\u2220 ').replace('solid_angle_', '\u03a9 ').replace('_', ' '), q.unit === 'degrees' ? withUnit(q.value(c), q.unit) : figure(q.value(c))]);
+    const facts = [['number', count(mesh.numbers[c])], ...whereabouts(mesh, c)];
+    const values = mesh.quantities.map((q) =>
+      [shortName(q), q.unit === 'degrees' ? withUnit(q.value(c), q.unit) : figure(q.value(c))]);
     parent.append(
       element('table', {class: 'facts'}, ...facts.map(([name, value]) => element(
         'tr', {}, element('th', {}, element('small', {}, name)), element('td', {'data-fact': name}, value)))),
@@ -63,8 +72,8 @@ export function makeElementPanel(parent, mesh, state, actions, tell) {
 
 function listOf(mesh, cells, columns, actions) {
   const body = element('tbody', {}, ...cells.map((c) => {
-    const row = element('tr', {tabindex: 0, 'data-cell': mesh.numbers[c]}, ...columns.map(([, value]) =>
-      element('td', {class: 'number'}, value(c))));
+    const row = element('tr', {tabindex: 0, 'data-cell': mesh.numbers[c], title: whereabouts(mesh, c).flat().join(' ')},
+                        ...columns.map(([, value]) => element('td', {class: 'number'}, value(c))));
     row.addEventListener('click', () => actions.lookAt(c));
     row.addEventListener('keydown', (event) => event.key === 'Enter' && actions.lookAt(c));
     return row;
@@ -75,20 +84,20 @@ function listOf(mesh, cells, columns, actions) {
 
 export function makeLists(parent, mesh, report, state, actions) {
   const byName = (name) => mesh.quantities.find((q) => q.name === name);
-  const column = (quantity) => [quantity.name.replace('dihedral_', '\u2220 '), (c) => withUnit(quantity.value(c), quantity.unit)];
+  const column = (quantity) => [shortName(quantity), (c) => withUnit(quantity.value(c), quantity.unit)];
   const number = ['element', (c) => count(mesh.numbers[c])];
   const angles = [column(byName('dihedral_min')), column(byName('dihedral_max'))];
-  const byNumber = new Map(Array.from(mesh.numbers, (n, c) => [n, c]));
-  const critical = report.critical && report.critical.worst.map((entry) => byNumber.get(entry.cell)).filter((c) => c !== undefined);
+  const critical = report.critical?.worst.map((entry) => mesh.byNumber.get(entry.cell));
   const update = () => {
-    const quantity = mesh.quantities[typeof state.color === 'number' ? state.color : 1];
+    const quantity = state.quantity();
     const columns = [number, column(quantity), ...angles.filter(([name]) => name !== column(quantity)[0])];
     parent.replaceChildren(element('h2', {}, `Worst by ${quantity.name}`),
                            listOf(mesh, worstCells(mesh, quantity), columns, actions));
-    if (critical)
-      parent.append(element('h2', {style: 'margin-top:14px'}, 'Critical: bad shape and an error above the mean'),
-                    critical.length ? listOf(mesh, critical, [number, column(byName('error')), column(byName('sigma'))], actions)
-                                    : element('p', {class: 'empty'}, 'None.'));
+    if (critical) {
+      const about = [number, column(byName('error')), column(byName('sigma'))];
+      parent.append(element('h2', {class: 'next'}, 'Critical: bad shape and an error above the mean'),
+                    critical.length ? listOf(mesh, critical, about, actions) : element('p', {class: 'empty'}, 'None.'));
+    }
     mark();
   };
   const mark = () => parent.querySelectorAll('tr[data-cell]').forEach((row) =>

@@ -33,15 +33,3 @@ export function withUnit(value, unit) {
   if (unit === 'degrees') return `${figure(x)}\u00b0`;
   return unit === 'steradians' ? `${figure(x)} sr` : figure(x);
 }
-
-/** A new element with attributes and children. */
-export function element(tag, attributes = {}, ...children) {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) {
-    if (name.startsWith('on')) made.addEventListener(name.slice(2), value);
-    else if (value === true) made.setAttribute(name, '');
-    else if (value !== false && value !== null) made.setAttribute(name, value);
-  }
-  made.append(...children);
-  return made;
-}

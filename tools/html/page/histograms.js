@@ -1,7 +1,8 @@
 // A histogram of each quantity; a click on a bar shows its cells, with the shift key those up to it.
 
-import {css, goodnessColor} from './colors.js';
-import {count, element, percent, withUnit} from './format.js';
+import {css, badnessColor} from './colors.js';
+import {element} from './dom.js';
+import {count, percent, withUnit} from './format.js';
 
 const ABOUT = {
   beta: '3 r / R',
@@ -47,7 +48,7 @@ class Bars {
     this.groups = quantity.histogram.map((n, bin) => {
       const [low, high] = quantity.binEnds(bin);
       const group = shape('g', {class: 'bar', role: 'option', 'data-bin': bin, 'aria-label': barText(quantity, bin)});
-      const fill = css(goodnessColor(quantity.goodness((low + high) / 2)));
+      const fill = css(badnessColor(quantity.badness((low + high) / 2)));
       group.append(shape('rect', {x: bin + 0.06, width: 0.88, fill}),
                    shape('rect', {x: bin, y: 0, width: 1, height: 1, class: 'hit'}));
       if (n) group.addEventListener('click', (event) => state.chooseBar(index, bin, event.shiftKey));

@@ -4,7 +4,8 @@
 import {makeBands} from './bands.js';
 import {readArrays} from './data.js';
 import {makeElementPanel, makeLists} from './elements.js';
-import {coordinate, count, element, figure, withUnit} from './format.js';
+import {byId, element} from './dom.js';
+import {coordinate, count, figure, withUnit} from './format.js';
 import {makeHistograms} from './histograms.js';
 import {Mesh} from './mesh.js';
 import style from './page.css';
@@ -14,8 +15,6 @@ import {cutAt, drawAxes, listenToKeys, makeLegend, makeToolbar} from './stage.js
 import {State} from './state.js';
 import {View} from './view.js';
 
-const byId = (id) => document.getElementById(id);
-
 function tell(text) {
   byId('message').textContent = text ?? '';
 }
@@ -24,13 +23,14 @@ function showFacts(figures) {
   const {report} = figures;
   byId('title').textContent = figures.title;
   const fact = (value, name, isBad) => element('li', {class: isBad ? 'bad' : null}, element('b', {}, value), ` ${name}`);
+  const angle = (name, which) => withUnit(report.measures[name][which], 'degrees');
   const size = figures.step * Math.max(...figures.extent);
-  const box = figures.origin.map((low, k) => `${coordinate(low, size)} \u2026 ${coordinate(low + figures.step * figures.extent[k], size)}`);
+  const box = figures.origin.map((low, k) =>
+    `${coordinate(low, size)} \u2026 ${coordinate(low + figures.step * figures.extent[k], size)}`);
   byId('facts').append(
     fact(count(report.cells), 'elements'), fact(count(figures.vertices), 'vertices'),
     fact(count(report.inverted), 'flat or inverted', report.inverted > 0),
-    fact(`${withUnit(report.measures.dihedral_min.min, 'degrees')} \u2013 ${withUnit(report.measures.dihedral_max.max, 'degrees')}`,
-         'dihedral angles'),
+    fact(`${angle('dihedral_min', 'min')} \u2013 ${angle('dihedral_max', 'max')}`, 'dihedral angles'),
     fact(figure(figures.volume), 'volume'), fact(figure(figures.area), 'area'),
     element('li', {}, element('small', {}, `x ${box[0]}, y ${box[1]}, z ${box[2]}, in the mesh's unit`)));
 }
@@ -40,8 +40,8 @@ function tellWhatIsLeftOut({report, selection, sets}) {
   const missing = unsent.length ? ` Sets too large to send: ${unsent.join(', ')}.` : '';
   byId('left-out').textContent = (selection.whole ? 'This page carries every element.'
     : `This page carries ${count(selection.cells)} of ${count(report.cells)} elements: all that are seen from outside or ` +
-      `where sets meet, those seen at ${selection.cuts[0].length} cuts along each axis, and the ${count(selection.worst)} worst by each measure. ` +
-      'All figures are of the whole mesh.') + missing;
+      `where sets meet, those seen at ${selection.cuts[0].length} cuts along each axis, and the ` +
+      `${count(selection.worst)} worst by each measure. All figures are of the whole mesh.`) + missing;
 }
 
 function chooseTheme(view) {
@@ -95,10 +95,10 @@ function listenToPointer(mesh, state, view) {
     requestAnimationFrame(() => {
       isDue = false;
       const cell = view.cellAt(event.clientX, event.clientY);
-      const quantity = mesh.quantities[typeof state.color === 'number' ? state.color : 1];
-      const sets = cell === null ? [] : mesh.setsOfCell(cell).map((i) => mesh.sets[i].name);
-      tell(cell === null ? null : [`element ${count(mesh.numbers[cell])}`, `${quantity.name} ${withUnit(quantity.value(cell), quantity.unit)}`,
-                                   mesh.place(cell), ...sets].join(' \u00b7 '));
+      if (cell === null) return tell(null);
+      const quantity = state.quantity();
+      return tell([`element ${count(mesh.numbers[cell])}`, `${quantity.name} ${withUnit(quantity.value(cell), quantity.unit)}`,
+                   mesh.place(cell), ...mesh.setsOfCell(cell)].join(' \u00b7 '));
     });
   });
   canvas.addEventListener('pointerleave', () => tell(null));

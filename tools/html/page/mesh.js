@@ -32,10 +32,9 @@ class Quantity {
     return low + (high - low) * (this.codes[cell] % this.levels) / (this.levels - 1);
   }
 
-  /** 1 for the best value, 0 for the end of the range that is farthest from it. */
-  goodness(value) {
-    const farthest = Math.max(this.best - this.low, this.high - this.best);
-    return 1 - Math.min(1, Math.abs(value - this.best) / farthest);
+  /** How far a value is from the best one: 1 at the farther end of the range. */
+  badness(value) {
+    return Math.abs(value - this.best) / Math.max(this.best - this.low, this.high - this.best);
   }
 }
 
@@ -56,6 +55,7 @@ export class Mesh {
     });
     this.quantities = figures.quantities.map((info) => new Quantity(info, arrays[`code ${info.name}`]));
     this.sets = figures.sets.map((set, i) => ({...set, index: i, vertices: arrays[`set ${i}`]}));
+    this.byNumber = new Map(Array.from(arrays.numbers, (number, cell) => [number, cell]));
     this.sums = this.sumsOfPoints();
     this.neighbors = this.findNeighbors();
   }
@@ -99,18 +99,16 @@ export class Mesh {
     return (this.faces[halfface] & 1) === 1;
   }
 
+  /** The names of the sets that the cell is in. */
   setsOfCell(cell) {
-    return this.combinations[this.cellSets[cell]];
-  }
-
-  setsOfFace(halfface) {
-    return this.combinations[this.faces[halfface] >> 1];
+    return this.combinations[this.cellSets[cell]].map((i) => this.sets[i].name);
   }
 
   /** The names of the face sets that the cell's faces are in. */
   setsTouched(cell) {
     const found = new Set();
-    for (let k = 0; k < 4; ++k) this.setsOfFace(4 * cell + k).forEach((i) => found.add(this.sets[i].name));
+    for (let k = 0; k < 4; ++k)
+      for (const i of this.combinations[this.faces[4 * cell + k] >> 1]) found.add(this.sets[i].name);
     return [...found];
   }
 

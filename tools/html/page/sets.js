@@ -1,7 +1,8 @@
 // The list of sets, to show and hide.
 
 import {css, setColor} from './colors.js';
-import {count, element, figure} from './format.js';
+import {element} from './dom.js';
+import {count, figure} from './format.js';
 
 const KINDS = [['cell', 'Cell sets', 'volume'], ['face', 'Face sets', 'area'], ['edge', 'Edge sets', 'length'],
                ['vertex', 'Vertex sets', null]];

@@ -1,9 +1,8 @@
 // What stands round the mesh: the toolbar, the legend, the axes and the keys.
 
-import {css, goodnessColor, setColor} from './colors.js';
-import {coordinate, element, figure, withUnit} from './format.js';
-
-const byId = (id) => document.getElementById(id);
+import {css, badnessColor, setColor} from './colors.js';
+import {byId, element} from './dom.js';
+import {coordinate, figure, withUnit} from './format.js';
 
 export function makeToolbar(mesh, state, view, tell) {
   const color = byId('color');
@@ -80,16 +79,17 @@ export function makeLegend(mesh, state) {
   const update = () => {
     if (typeof state.color === 'number') {
       const q = mesh.quantities[state.color];
-      const stops = Array.from({length: 25}, (_, i) => css(goodnessColor(q.goodness(q.low + (q.high - q.low) * i / 24))));
+      const stops = Array.from({length: 25}, (_, i) => css(badnessColor(q.badness(q.low + (q.high - q.low) * i / 24))));
       legend.replaceChildren(
         element('b', {}, q.name), element('div', {class: 'scale', style: `background:linear-gradient(90deg,${stops})`}),
         element('div', {class: 'ends'}, element('span', {}, withUnit(q.low, q.unit)),
-                element('span', {}, q.best > q.low && q.best < q.high ? `best ${withUnit(q.best, q.unit)}` : ''), element('span', {}, withUnit(q.high, q.unit))));
+                element('span', {}, q.best > q.low && q.best < q.high ? `best ${withUnit(q.best, q.unit)}` : ''),
+                element('span', {}, withUnit(q.high, q.unit))));
     } else {
       const kind = state.color === 'cells' ? 'cell' : 'face';
       const sets = mesh.sets.filter((set) => set.kind === kind).slice(0, 12);
-      legend.replaceChildren(...(sets.length ? sets : [{name: 'no sets', index: null}]).map((set) => element(
-        'div', {}, set.index === null ? '' : element('span', {class: 'chip', style: `background:${css(setColor(set.index))}`}), set.name)));
+      const chip = (set) => element('span', {class: 'chip', style: `background:${css(setColor(set.index))}`});
+      legend.replaceChildren(...sets.map((set) => element('div', {}, chip(set), set.name)), sets.length ? '' : 'no sets');
     }
   };
   state.onChange((changes) => 'color' in changes && update());
@@ -101,7 +101,8 @@ export function drawAxes(view) {
   const canvas = byId('axes');
   const pen = canvas.getContext('2d');
   const [right, up, back] = [0, 4, 8].map((k) => view.camera.matrixWorld.elements.slice(k, k + 3));
-  const axes = [0, 1, 2].map((k) => ({name: 'xyz'[k], x: right[k], y: up[k], depth: back[k], color: ['#d1495b', '#3a9d5d', '#3c78d8'][k]}));
+  const colors = ['#d1495b', '#3a9d5d', '#3c78d8'];
+  const axes = [0, 1, 2].map((k) => ({name: 'xyz'[k], x: right[k], y: up[k], depth: back[k], color: colors[k]}));
   pen.clearRect(0, 0, 160, 160);
   pen.lineWidth = 5;
   pen.lineCap = 'round';

@@ -1,6 +1,8 @@
 // What the reader has chosen, and which cells and faces are shown for it.
 
-import {goodnessColor, NO_SET, setColor} from './colors.js';
+import {badnessColor, NO_SET, setColor} from './colors.js';
+
+const SIGMA = 1;
 
 export class State {
   constructor(mesh, whole, cuts) {
@@ -8,7 +10,7 @@ export class State {
     this.whole = whole;
     this.cuts = cuts;
     this.listeners = [];
-    this.color = 1;          // a quantity's number, 'cells' or 'faces'
+    this.color = SIGMA;      // a quantity's number, 'cells' or 'faces'
     this.chosen = null;      // {name, count, test}: the cells of bars, or what a criterion counts
     this.bars = null;        // {quantity, first, last}, where the chosen cells are those of bars
     this.cell = null;        // the cell that is looked at
@@ -70,17 +72,20 @@ export class State {
     return {normal: [0, 1, 2].map((k) => (k === along ? 1 : 0)), level: 4 * place};
   }
 
-  /** Whether its sets let an entity be seen. */
-  setsAllow(sets, kind) {
-    if (sets.some((i) => this.hidden.has(i))) return false;
-    const only = [...this.only].filter((i) => this.mesh.sets[i].kind === kind);
-    return only.length === 0 || sets.some((i) => this.only.has(i));
+  /** By combination of sets, whether its sets of this kind let an entity be seen. */
+  combinationsAllowed(kind) {
+    const isOfKind = (i) => this.mesh.sets[i].kind === kind;
+    const hasOnly = [...this.only].some(isOfKind);
+    return this.mesh.combinations.map((sets) => {
+      const own = sets.filter(isOfKind);
+      return !own.some((i) => this.hidden.has(i)) && (!hasOnly || own.some((i) => this.only.has(i)));
+    });
   }
 
   /** The cells that the cut and the sets leave. */
   cellsLeft() {
     const {mesh} = this;
-    const allowed = mesh.combinations.map((sets) => this.setsAllow(sets.filter((i) => mesh.sets[i].kind === 'cell'), 'cell'));
+    const allowed = this.combinationsAllowed('cell');
     const plane = this.cutPlane();
     return mesh.mask((c) => {
       if (!allowed[mesh.cellSets[c]]) return false;
@@ -95,7 +100,7 @@ export class State {
     const {mesh} = this;
     const left = this.cellsLeft();
     if (this.chosen) return mesh.shell(mesh.mask((c) => left[c] && this.chosen.test(c)), true);
-    const allowed = mesh.combinations.map((sets) => this.setsAllow(sets.filter((i) => mesh.sets[i].kind === 'face'), 'face'));
+    const allowed = this.combinationsAllowed('face');
     if ([...this.only].some((i) => mesh.sets[i].kind === 'face'))
       return mesh.facesWhere(left, (hf) => allowed[mesh.faces[hf] >> 1]);
     return mesh.shell(left, false).filter((hf) => !mesh.isBoundary(hf) || allowed[mesh.faces[hf] >> 1]);
@@ -104,6 +109,11 @@ export class State {
   /** The boundary, to be hinted at behind the chosen cells or the faces of a set. */
   isGhostShown() {
     return this.chosen !== null || this.only.size > 0;
+  }
+
+  /** What the mesh is coloured by, or sigma. */
+  quantity() {
+    return this.mesh.quantities[typeof this.color === 'number' ? this.color : SIGMA];
   }
 
   /** Of what is in several sets: the colour of the smallest. */
@@ -119,6 +129,6 @@ export class State {
     if (color === 'cells') return (hf) => ofSets[mesh.cellSets[hf >> 2]];
     if (color === 'faces') return (hf) => ofSets[mesh.faces[hf] >> 1];
     const quantity = mesh.quantities[color];
-    return (hf) => goodnessColor(quantity.goodness(quantity.value(hf >> 2)));
+    return (hf) => badnessColor(quantity.badness(quantity.value(hf >> 2)));
   }
 }

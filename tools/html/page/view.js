@@ -38,7 +38,8 @@ export class View {
     this.ghost = this.add(new Triangles(new BufferGeometry(), ghostMaterial()));
     this.solid = this.add(new Triangles(new BufferGeometry(), solidMaterial()));
     this.creases = this.add(new LineSegments(new BufferGeometry(), new LineBasicMaterial({transparent: true, opacity: 0.7})));
-    this.focus = this.add(new WideLines(new LineSegmentsGeometry(), new LineMaterial({linewidth: 2.5, depthTest: false, transparent: true})));
+    this.focus = this.add(new WideLines(new LineSegmentsGeometry(), new LineMaterial(
+      {linewidth: 2.5, depthTest: false, transparent: true})));
     this.focus.renderOrder = 2;
     this.focusFaces = this.add(new Triangles(new BufferGeometry(), new MeshBasicMaterial(
       {depthTest: false, transparent: true, opacity: 0.25, side: DoubleSide})));
