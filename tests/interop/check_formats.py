@@ -1,5 +1,6 @@
-"""Checks our mesh files against meshio, Gmsh and CalculiX: what we write they read, with the same groups, and the other way
-round. Usage: check_formats.py MESH_PROBE meshio|gmsh|ccx. Exit status 77 where that program isn't installed."""
+"""Checks our mesh files against meshio, Gmsh, VTK, DOLFINx and CalculiX: what we write they read, with the same groups, and
+the other way round. Usage: check_formats.py MESH_PROBE meshio|gmsh|vtk|dolfinx|ccx. Exit status 77 where that program isn't
+installed."""
 import importlib.util
 import json
 import math
@@ -42,7 +43,8 @@ def volume_of(points, tets):
 
 
 def is_installed(partner):
-    return bool(shutil.which(partner) or importlib.util.find_spec(partner))
+    module = "vtkmodules" if partner == "vtk" else partner
+    return bool(shutil.which(partner) or importlib.util.find_spec(module))
 
 
 # ---- meshio ---------------------------------------------------------------------------------------------------------
@@ -191,6 +193,85 @@ def check_gmsh(folder, facts):
     gmsh.finalize()
 
 
+# ---- VTK ------------------------------------------------------------------------------------------------------------
+VTK_DIMENSIONS = {1: 0, 3: 1, 5: 2, 10: 3}
+
+
+def check_vtk(folder, facts):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOExodus import vtkExodusIIReader
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(folder / "sample.vtu"))
+    reader.Update()
+    grid = reader.GetOutput()
+    same("points in VTK", grid.GetNumberOfPoints(), facts["vertices"])
+    dimensions = np.array([VTK_DIMENSIONS[grid.GetCellType(i)] for i in range(grid.GetNumberOfCells())])
+    same("tetrahedra in VTK", int((dimensions == 3).sum()), facts["cells"])
+    sizes = {}
+    for s in facts["sets"]:
+        flags = vtk_to_numpy(grid.GetCellData().GetArray(s["name"]))
+        sizes[(s["dimension"], s["name"])] = int(flags[dimensions == s["dimension"]].sum())
+    same("sets in VTK", {k: n for k, n in sizes.items() if n}, set_sizes(facts))
+    x = vtk_to_numpy(grid.GetPointData().GetArray("x"))
+    same("field x in VTK", x.tolist(), [grid.GetPoint(i)[0] for i in range(grid.GetNumberOfPoints())])
+    # What VTK writes of it we read, in all its ways.
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    for name, mode, head in (("text", 0, 32), ("base64", 1, 32), ("base64-64", 1, 64), ("raw", 2, 32), ("raw-64", 2, 64)):
+        for compressed in (False, True):
+            path = folder / f"vtk-{name}-{compressed}.vtu"
+            writer.SetFileName(str(path))
+            writer.SetDataMode(mode)
+            writer.SetHeaderType(head)
+            writer.SetCompressorTypeToZLib() if compressed else writer.SetCompressorTypeToNone()
+            writer.Write()
+            back = info(path)
+            same(f"cells of {path.name}", back["cells"], facts["cells"])
+            same(f"sets of {path.name}", set_sizes(back), set_sizes(facts))
+
+    # Exodus: side sets, node sets and element sets by name, with their sizes.
+    exodus = vtkExodusIIReader()
+    exodus.SetFileName(str(folder / "sample.e"))
+    exodus.UpdateInformation()
+    kinds = {0: (exodus.NODE_SET, "vertex"), 2: (exodus.SIDE_SET, "face"), 3: (exodus.ELEM_SET, "cell")}
+    for dimension, (kind, word) in kinds.items():
+        got = {}
+        for i in range(exodus.GetNumberOfObjects(kind)):
+            got[exodus.GetObjectName(kind, i).split(" Size: ")[0]] = exodus.GetNumberOfEntriesInObject(kind, i)
+        wanted = {s["name"]: s["size"] for s in facts["sets"] if s["dimension"] == dimension}
+        same(f"{word} sets of sample.e in VTK", got, wanted)
+    same("nodes of sample.e in VTK", exodus.GetTotalNumberOfNodes(), facts["vertices"])
+    same("elements of sample.e in VTK", exodus.GetTotalNumberOfElements(), facts["cells"])
+
+
+# ---- DOLFINx --------------------------------------------------------------------------------------------------------
+def check_dolfinx(folder, facts):
+    """The cube on rollers: its sets arrive as tags of cells and facets."""
+    import gmsh
+    from dolfinx.io import gmshio
+    from mpi4py import MPI
+
+    # Its own read_from_msh, which does this, ends in a name error in 0.5.
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.open(str(folder / "rollers.msh"))
+    groups = {gmsh.model.getPhysicalName(*group): group[1] for group in gmsh.model.getPhysicalGroups()}
+    mesh, cells, facets = gmshio.model_to_mesh(gmsh.model, MPI.COMM_WORLD, 0, gdim=3)
+    gmsh.finalize()
+    same("cells in DOLFINx", mesh.topology.index_map(3).size_global, 6 * 3**3)
+    same("tagged cells in DOLFINx", len(cells.indices), 6 * 3**3)
+    same("tags of cells in DOLFINx", set(cells.values.tolist()), {groups["steel"]})
+    same("tags of facets in DOLFINx", set(facets.values.tolist()), {groups["plate/x+"]})
+    pulled = facets.indices
+    same("tagged facets in DOLFINx", len(pulled), 2 * 3 * 3)
+    mesh.topology.create_connectivity(2, 0)
+    corners = {v for f in pulled for v in mesh.topology.connectivity(2, 0).links(f)}
+    same("corners of tagged facets in DOLFINx", len(corners), 16)
+    same("places of tagged facets in DOLFINx", {mesh.geometry.x[v][0] for v in corners}, {1.0})
+
+
 # ---- CalculiX -------------------------------------------------------------------------------------------------------
 YOUNG, POISSON, PULL = 210e3, 0.3, 42.0
 
@@ -234,4 +315,5 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         facts = json.loads(probe("write", folder))
-        {"meshio": check_meshio, "gmsh": check_gmsh, "ccx": check_ccx}[PARTNER](folder, facts)
+        checks = {"meshio": check_meshio, "gmsh": check_gmsh, "vtk": check_vtk, "dolfinx": check_dolfinx, "ccx": check_ccx}
+        checks[PARTNER](folder, facts)

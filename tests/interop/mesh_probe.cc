@@ -97,6 +97,8 @@ int main(int argc, char** argv) {
             write_mesh(cube_on_rollers(), folder / "rollers.inp");
             write_mesh(mesh, folder / "sample.vtu");
             write_mesh(mesh, folder / "sample41.msh");
+            write_mesh(mesh, folder / "sample.e");
+            write_mesh(cube_on_rollers(), folder / "rollers.msh");
             for (const char* surface : {"sample.stl", "sample.obj", "sample.off", "sample.ply"})
                 write_mesh(mesh, folder / surface);
             fmt::print("{}\n", facts(mesh).dump());

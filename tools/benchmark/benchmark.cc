@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "tools/benchmark/files.hh"
 #include "tools/benchmark/incidences.hh"
 #include "tools/benchmark/refinement.hh"
 #include "volmesh/error.hh"
@@ -39,6 +40,13 @@ int main(int argc, char** argv) {
     mesh->add_option("--repeat", what.repeats, "The best of so many runs")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
+    int kuhn_of_files = 94;
+    auto* files = app.add_subcommand("files", "Writes and reads a mesh, and copies its files");
+    files->add_option("--kuhn", kuhn_of_files, "Bricks a side; 94 makes 4,983,504 tetrahedra")
+        ->capture_default_str();
+    files->add_option("--repeat", what.repeats, "The best of so many runs")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
     CLI11_PARSE(app, argc, argv);
 
     try {
@@ -47,6 +55,8 @@ int main(int argc, char** argv) {
                 if (work == what.work) what.name = name + ", " + start;
             print_refinement_header();
             run(start_mesh(start), what);
+        } else if (files->parsed()) {
+            measure_files(kuhn_cube(kuhn_of_files), what.repeats);
         } else {
             const CellSoup soup = kuhn_cube(kuhn);
             fmt::print("{} tetrahedra, ordered\n\n", soup.cells.size());
