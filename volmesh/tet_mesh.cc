@@ -212,6 +212,7 @@ FaceList TetMesh::ef_range(EdgeHandle e) const {
 
 HalffaceHandle TetMesh::find_halfface(VertexHandle a, VertexHandle b, VertexHandle c) const {
     HalffaceHandle reversed;
+    if (a == b || b == c || c == a) return reversed;
     for (CellHandle cell : vc_range(a)) {
         const int i = local_vertex(cell, a);
         const int j = local_vertex(cell, b);
@@ -227,6 +228,7 @@ HalffaceHandle TetMesh::find_halfface(VertexHandle a, VertexHandle b, VertexHand
 }
 
 CellHandle TetMesh::find_cell(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d) const {
+    if (a == b || a == c || a == d || b == c || b == d || c == d) return {};
     for (CellHandle cell : vc_range(a))
         if (local_vertex(cell, b) >= 0 && local_vertex(cell, c) >= 0 && local_vertex(cell, d) >= 0)
             return cell;

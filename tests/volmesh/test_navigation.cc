@@ -135,6 +135,19 @@ TEST_CASE("Every incidence is what a search through the whole mesh finds") {
     }
 }
 
+TEST_CASE("Nothing has a vertex twice") {
+    const TetMesh mesh = test::kuhn_cube(1);
+    for (auto a : mesh.vertices())
+        for (auto b : mesh.vertices()) {
+            for (const auto& [u, v, w] : {std::tuple(a, b, b), {b, a, b}, {b, b, a}}) {
+                CHECK(!mesh.find_halfface(u, v, w).is_valid());
+                CHECK(!mesh.find_face(u, v, w).is_valid());
+                CHECK(!mesh.find_cell(u, v, w, VertexHandle(7)).is_valid());
+            }
+            if (a == b) CHECK(!mesh.find_edge(a, b).is_valid());
+        }
+}
+
 TEST_CASE("Smart handles work with ranges' algorithms and views") {
     const TetMesh mesh = test::kuhn_cube(2);
     const auto v = make_smart(VertexHandle(13), mesh);
