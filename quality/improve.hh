@@ -11,9 +11,9 @@ namespace maille::quality {
 
 struct ImproveOptions {
     int max_passes = 12;
-    /// Cells whose objective (objective.hh) is at least this are left as they are; .45 stands for angles of
-    /// 26.7 and 132 degrees and beta = .52.
-    double good_enough = 0.45;
+    /// Cells whose objective (objective.hh) is at least this are left as they are; .5 stands for angles of 30
+    /// and 125 degrees and beta = .58.
+    double good_enough = 0.5;
     /// Whether connectivity may change: by flips, removal of edges and faces, edge collapse and edge split.
     bool may_change_cells = true;
     /// Most sweeps to raise the mean of beta: each removes edges inside the mesh where the mean is below
@@ -39,8 +39,9 @@ struct ImproveResult {
 /// splits edges, the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R. Shewchuk,
 /// "Aggressive tetrahedral mesh improvement", 2007.
 ///
-/// No move lowers the least objective of the cells that it changes, unless it stays above `good_enough`; so
-/// the mesh's least never goes down, and an inverted cell may come right but none arises. Sets and properties
+/// No move lowers the least objective of the cells that it changes, but that one for the mean may where it
+/// stays above both three quarters of `good_enough` and the mesh's least. So this never goes down, and an
+/// inverted cell may come right but none arises. Sets and properties
 /// pass on by their rules, the volume of each cell set and the area of each flat face set stay. Vertices keep
 /// to their geometric support: the surfaces that their faces' sets name, where `projector` knows these; else
 /// the planes of their faces, where these are flat; else they stay. So do vertices in a vertex set, on an

@@ -57,7 +57,7 @@ class Improver {
 
     // improver_mean.cc
     double mean_beta() const;
-    std::size_t slide_for_mean(const std::vector<std::uint8_t>& is_free);
+    std::size_t slide_for_mean(double floor, const std::vector<std::uint8_t>& is_free);
 
     // improver_flips.cc
     struct EdgeRemoval {

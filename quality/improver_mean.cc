@@ -20,16 +20,18 @@ double Improver::mean_beta() const {
 
 void Improver::raise_mean() {
     constexpr double little = 0.003;
+    // What this leaves below good_enough the passes better; but no cell comes to be the mesh's worst.
+    const double floor = std::max(worst(), 0.75 * options_.good_enough);
     const std::vector<std::uint8_t> is_free = free_vertices(mesh_);
     double mean = mean_beta();
     for (int sweep = 0; sweep < options_.mean_sweeps; ++sweep) {
         const double before = mean;
         if (mean < options_.good_mean && options_.may_change_cells)
-            result_.edge_removals += flip_for_mean(mesh_, shapes_, mean, options_.good_enough, limit_);
-        result_.moves += move_for_mean(mesh_, shapes_, options_.good_enough, limit_, is_free);
+            result_.edge_removals += flip_for_mean(mesh_, shapes_, mean, floor, limit_);
+        result_.moves += move_for_mean(mesh_, shapes_, floor, limit_, is_free);
         mean = mean_beta();
         if (mean >= options_.good_mean) break;
-        result_.moves += slide_for_mean(is_free);
+        result_.moves += slide_for_mean(floor, is_free);
         mean = mean_beta();
         if (mean >= options_.good_mean || mean < before + little) break;
     }
@@ -37,7 +39,7 @@ void Improver::raise_mean() {
 }
 
 /// Moves vertices on surfaces, curves and flat sides.
-std::size_t Improver::slide_for_mean(const std::vector<std::uint8_t>& is_free) {
+std::size_t Improver::slide_for_mean(double floor, const std::vector<std::uint8_t>& is_free) {
     std::size_t n_moves = 0;
     for (std::uint32_t i = 0; i < mesh_.n_vertices(); ++i) {
         const VertexHandle v(i);
@@ -48,8 +50,8 @@ std::size_t Improver::slide_for_mean(const std::vector<std::uint8_t>& is_free) {
         const Point start = mesh_.point(v);
         const Bases bases = bases_at(v, cells);
         const auto found =
-            higher_place(bases, start, std::min(options_.good_enough, quality(cells)),
-                         Constraint(bound, start, projector_), allowed_places(v, cells, bases, bound));
+            higher_place(bases, start, std::min(floor, quality(cells)), Constraint(bound, start, projector_),
+                         allowed_places(v, cells, bases, bound));
         if (!found) continue;
         mesh_.set_point(v, found->point);
         for (std::size_t k = 0; k < cells.size(); ++k) shapes_[cells[k].idx()] = found->shapes[k];

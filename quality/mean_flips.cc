@@ -23,7 +23,7 @@ constexpr std::size_t max_ring = 7;
 constexpr double least_gain = 1e-3;
 
 struct Goal {
-    double mean, good_enough;
+    double mean, floor;
 };
 
 std::pair<double, std::uint32_t> order(const std::vector<Shape>& shapes, CellHandle c) {
@@ -78,7 +78,7 @@ bool is_in_one_region(const TetMesh& mesh, const EdgeRing& ring) {
 class BestFilling {
   public:
     BestFilling(const TetMesh& mesh, const EdgeRing& ring, const std::vector<Shape>& shapes, const Goal& goal)
-        : a_(mesh.point(ring.a)), b_(mesh.point(ring.b)), goal_(goal), floor_(goal.good_enough) {
+        : a_(mesh.point(ring.a)), b_(mesh.point(ring.b)), goal_(goal), floor_(goal.floor) {
         for (const CellHandle c : ring.cells) {
             before_ += shapes[c.idx()].beta - goal.mean;
             floor_ = std::min(floor_, shapes[c.idx()].objective);
@@ -182,9 +182,9 @@ bool keeps_size(const TetMesh& mesh, const EdgeRing& ring, const std::vector<Rin
 
 }  // namespace
 
-std::size_t flip_for_mean(TetMesh& mesh, std::vector<Shape>& shapes, double mean, double good_enough,
+std::size_t flip_for_mean(TetMesh& mesh, std::vector<Shape>& shapes, double mean, double floor,
                           const SizeLimit& limit) {
-    const Goal goal{mean, good_enough};
+    const Goal goal{mean, floor};
     const auto measure = [&](CellHandle c) {
         const auto p = mesh.cell_points(c);
         shapes[c.idx()] = mesh.is_deleted(c) ? Shape{1, 1} : shape(p[0], p[1], p[2], p[3]);

@@ -287,7 +287,7 @@ TEST_CASE("the mean of a bisected mesh rises to what is wanted, with any number 
     }
 }
 
-TEST_CASE("raising the mean lowers no cell below what is good enough") {
+TEST_CASE("raising the mean makes no cell the worst") {
     TetMesh mesh = bisected_cube(12);
     const TetMesh start = mesh;
     const double floor = worst(mesh);
@@ -295,7 +295,7 @@ TEST_CASE("raising the mean lowers no cell below what is good enough") {
         mesh = start;
         improve(mesh, {.max_passes = 0, .good_enough = good_enough, .good_mean = 1});
         CHECK(assess(mesh)[Measure::beta].mean > assess(start)[Measure::beta].mean + 0.05);
-        CHECK(worst(mesh) > std::min(floor, good_enough));
+        CHECK(worst(mesh) >= floor);
     }
 }
 
