@@ -19,6 +19,7 @@ struct Sides {
 
     Sides(const Point& p, const Point& q, const Point& r, const Tet& tet) {
         for (const Point& corner : tet) {
+            if (corner == p || corner == q || corner == r) continue;  // exact arithmetic would tell
             const int side = orientation(p, q, r, corner);
             has_positive |= side > 0;
             has_negative |= side < 0;

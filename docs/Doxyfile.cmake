@@ -1,0 +1,18 @@
+# `cmake --build --preset release --target docs`: the reference of all public headers, in build/release/docs/html.
+find_package(Doxygen QUIET)
+if(NOT DOXYGEN_FOUND)
+  return()
+endif()
+set(DOXYGEN_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/docs)
+set(DOXYGEN_FILE_PATTERNS *.hh *.md)
+set(DOXYGEN_USE_MDFILE_AS_MAINPAGE ${PROJECT_SOURCE_DIR}/README.md)
+set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR})
+set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+set(DOXYGEN_EXTRACT_PRIVATE NO)
+set(DOXYGEN_BUILTIN_STL_SUPPORT YES)
+set(DOXYGEN_WARN_IF_UNDOCUMENTED YES)
+set(DOXYGEN_WARN_NO_PARAMDOC NO)
+set(DOXYGEN_WARN_LOGFILE ${PROJECT_BINARY_DIR}/docs/warnings.txt)
+set(DOXYGEN_EXCLUDE_PATTERNS */tests/* */build/* */tools/*)
+doxygen_add_docs(docs README.md CONTRIBUTING.md docs volmesh quality refine modeler
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "The reference by Doxygen")
