@@ -180,4 +180,15 @@ TEST_CASE("what is wrong is named with its place") {
     require_error(inp, "*INCLUDE, INPUT=b.inp\n", "only files in one piece");
     require_error(folder / "a.vtu", "<VTKFile type=\"PolyData\"/>", "is not an unstructured grid");
     require_error(folder / "a.vtu", "<VTKFile type=", "byte");
+    const std::string grid = "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>";
+    const std::string place = "a.vtu: byte " + std::to_string(grid.size() + 1);
+    require_error(folder / "a.vtu", grid + "<Piece NumberOfPoints=\"x\"/></UnstructuredGrid></VTKFile>",
+                  place + ": NumberOfPoints is not a number");
+    const std::string points = "<Piece NumberOfPoints=\"1\" NumberOfCells=\"0\"><Points>";
+    require_error(folder / "a.vtu",
+                  grid + points +
+                      "<DataArray Name=\"P\" type=\"Float64\" NumberOfComponents=\"3\">0 0 x</DataArray>"
+                      "</Points></Piece></UnstructuredGrid></VTKFile>",
+                  "a.vtu: byte " + std::to_string(grid.size() + points.size() + 1) +
+                      ": array 'P': 'x' is no such number");
 }

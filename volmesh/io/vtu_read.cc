@@ -38,6 +38,11 @@ class VtuFile {
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError(file_.name() + ": " + message);
     }
+    /// With the byte at which the node stands in the file.
+    [[noreturn]] void fail_at(pugi::xml_node node, const std::string& message) const {
+        const auto offset = std::max<std::ptrdiff_t>(node.offset_debug(), 0);
+        file_.fail_at_byte(file_.text().data() + offset, message);
+    }
 
   private:
     /// Parses all but the appended arrays, which are not XML.
@@ -101,7 +106,7 @@ std::size_t VtuFile::count(const char* attribute) const {
     std::size_t n = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
     if (error != std::errc{} || end != text.data() + text.size())
-        fail(fmt::format("{} is not a number", attribute));
+        fail_at(piece_, fmt::format("{} is not a number", attribute));
     return n;
 }
 
@@ -149,7 +154,7 @@ class VtuReader {
         try {
             action(file_.array(node));
         } catch (const InputError& error) {
-            file_.fail(fmt::format("array '{}': {}", node.attribute("Name").value(), error.what()));
+            file_.fail_at(node, fmt::format("array '{}': {}", node.attribute("Name").value(), error.what()));
         }
     }
 
@@ -180,7 +185,7 @@ std::vector<std::int64_t> VtuReader::integers(const char* name, std::size_t n) {
     std::vector<std::int64_t> values;
     with_array(node, [&](const VtuFile::Array& array) { values = array.numbers.as_integers(); });
     if (values.size() < n)
-        file_.fail(fmt::format("array '{}' has {} values instead of {}", name, values.size(), n));
+        file_.fail_at(node, fmt::format("array '{}' has {} values instead of {}", name, values.size(), n));
     return values;
 }
 
