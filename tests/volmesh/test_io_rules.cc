@@ -46,54 +46,59 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 }  // namespace
 
-TEST_CASE(".vtu keeps the rules of sets, and a refined mesh goes on as if it had never been away") {
+TEST_CASE("rules of sets are kept, and a refined mesh goes on as if it had never been away") {
     const test::TemporaryFolder folder;
-    TetMesh mesh = test::kuhn_cube(2);
-    const auto late = mesh.add_set("late", EntityKind::cell);  // shares its name with a set that has a source
-    const auto wall = mesh.add_set("wall x-", EntityKind::face);
-    const auto rim = mesh.add_set("rim", EntityKind::edge, SetRule::none());
-    const auto fixed = mesh.add_set("late", EntityKind::vertex, SetRule::from_faces(wall));
-    mesh.add_set("from rim", EntityKind::vertex, SetRule::from_edges(rim));
-    mesh.add_set("both", EntityKind::vertex, SetRule::both_ends());
-    mesh.add_set("both in late", EntityKind::vertex, SetRule::both_ends(late));
-    mesh.add_set("own", EntityKind::cell, SetRule::custom([](auto&&...) { return true; }));
-    mesh.add_set("load", EntityKind::vertex);
-    for (auto hf : mesh.boundary_halffaces())
-        if (std::ranges::all_of(hf.vertices(), [](auto v) { return v.point().x() == 0; }))
-            mesh.insert(wall, HalffaceHandle(hf));
-    mesh.insert(late, CellHandle(3));
-    for (auto v : mesh.vertices())
-        if (v.point().x() == 0) mesh.insert(fixed, VertexHandle(v));
+    for (const auto& [extension, format] : {std::pair(".vtu", ""), {".msh", ""}, {".msh", "msh22"}}) {
+        CAPTURE(extension);
+        TetMesh mesh = test::kuhn_cube(2);
+        const auto late =
+            mesh.add_set("late", EntityKind::cell);  // shares its name with a set that has a source
+        const auto wall = mesh.add_set("wall x-", EntityKind::face);
+        const auto rim = mesh.add_set("rim", EntityKind::edge, SetRule::none());
+        const auto fixed = mesh.add_set("late", EntityKind::vertex, SetRule::from_faces(wall));
+        mesh.add_set("from rim", EntityKind::vertex, SetRule::from_edges(rim));
+        mesh.add_set("both", EntityKind::vertex, SetRule::both_ends());
+        mesh.add_set("both in late", EntityKind::vertex, SetRule::both_ends(late));
+        mesh.add_set("own", EntityKind::cell, SetRule::custom([](auto&&...) { return true; }));
+        mesh.add_set("load", EntityKind::vertex);
+        for (auto hf : mesh.boundary_halffaces())
+            if (std::ranges::all_of(hf.vertices(), [](auto v) { return v.point().x() == 0; }))
+                mesh.insert(wall, HalffaceHandle(hf));
+        mesh.insert(late, CellHandle(3));
+        for (auto v : mesh.vertices())
+            if (v.point().x() == 0) mesh.insert(fixed, VertexHandle(v));
 
-    write_mesh(mesh, folder / "a.vtu");
-    TetMesh back = read_mesh(folder / "a.vtu");
-    REQUIRE(back.n_sets() == mesh.n_sets());
-    for (std::uint32_t i = 0; i < mesh.n_sets(); ++i) {
-        const SetInfo& was = mesh.set_info(SetHandle(i));
-        const SetInfo& is = back.set_info(back.find_set(was.name, was.kind));
-        CAPTURE(was.name);
-        const bool is_own = was.rule.kind == SetRule::Kind::custom;
-        CHECK(is.rule.kind == (is_own ? SetRule::Kind::copy : was.rule.kind));
-        REQUIRE(is.rule.source.is_valid() == was.rule.source.is_valid());
-        if (was.rule.source.is_valid()) {
-            CHECK(back.set_info(is.rule.source).name == mesh.set_info(was.rule.source).name);
-            CHECK(back.set_info(is.rule.source).kind == mesh.set_info(was.rule.source).kind);
+        write_mesh(mesh, folder / ("a" + std::string(extension)), {format});
+        TetMesh back = read_mesh(folder / ("a" + std::string(extension)));
+        REQUIRE(back.n_sets() == mesh.n_sets());
+        for (std::uint32_t i = 0; i < mesh.n_sets(); ++i) {
+            const SetInfo& was = mesh.set_info(SetHandle(i));
+            const SetInfo& is = back.set_info(back.find_set(was.name, was.kind));
+            CAPTURE(was.name);
+            const bool is_own = was.rule.kind == SetRule::Kind::custom;
+            CHECK(is.rule.kind == (is_own ? SetRule::Kind::copy : was.rule.kind));
+            REQUIRE(is.rule.source.is_valid() == was.rule.source.is_valid());
+            if (was.rule.source.is_valid()) {
+                CHECK(back.set_info(is.rule.source).name == mesh.set_info(was.rule.source).name);
+                CHECK(back.set_info(is.rule.source).kind == mesh.set_info(was.rule.source).kind);
+            }
         }
+        write_mesh(back, folder / ("b" + std::string(extension)), {format});
+        CHECK(bytes_of(folder / ("a" + std::string(extension))) ==
+              bytes_of(folder / ("b" + std::string(extension))));
+
+        // Split all edges of the wall: the same vertices are fixed in both.
+        for (TetMesh* m : {&mesh, &back})
+            for (int i = 0; i < 20; ++i) {
+                const auto walls = m->face_members(m->find_set("wall x-", EntityKind::face));
+                const HalffaceHandle hf = walls[i % walls.size()];
+                m->split_edge(TetMesh::incident_cell(hf), tet::face_edges[TetMesh::local_face(hf)][i % 3]);
+            }
+        CHECK(back.vertex_members(back.find_set("late", EntityKind::vertex)) == mesh.vertex_members(fixed));
+        std::size_t n_on_wall = 0;
+        for (auto v : mesh.vertices()) n_on_wall += v.point().x() == 0;
+        CHECK(mesh.set_size(fixed) == n_on_wall);
     }
-    write_mesh(back, folder / "b.vtu");
-    CHECK(bytes_of(folder / "a.vtu") == bytes_of(folder / "b.vtu"));
-
-    // Split all edges of the wall: the same vertices are fixed in both.
-    for (TetMesh* m : {&mesh, &back})
-        for (int i = 0; i < 20; ++i) {
-            const auto walls = m->face_members(m->find_set("wall x-", EntityKind::face));
-            const HalffaceHandle hf = walls[i % walls.size()];
-            m->split_edge(TetMesh::incident_cell(hf), tet::face_edges[TetMesh::local_face(hf)][i % 3]);
-        }
-    CHECK(back.vertex_members(back.find_set("late", EntityKind::vertex)) == mesh.vertex_members(fixed));
-    std::size_t n_on_wall = 0;
-    for (auto v : mesh.vertices()) n_on_wall += v.point().x() == 0;
-    CHECK(mesh.set_size(fixed) == n_on_wall);
 }
 
 TEST_CASE(".vtu keeps properties of edges, faces and the mesh, with rules and defaults") {
@@ -165,6 +170,37 @@ TEST_CASE(".vtu keeps properties of edges, faces and the mesh, with rules and de
         sum += back.property(mass, c);
     }
     CHECK(sum == doctest::Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("rules of properties are kept in .msh") {
+    const test::TemporaryFolder folder;
+    TetMesh mesh = test::kuhn_cube(1);
+    CPropHandleT<double> mass;
+    VPropHandleT<double> heat;
+    VPropHandleT<std::int32_t> count;
+    VPropHandleT<Eigen::Vector3d> shift;
+    mesh.add_property(mass, "mass", PropertyRule::share);
+    mesh.add_property(heat, "heat", PropertyRule::none);
+    mesh.add_property(count, "count");
+    mesh.add_property(shift, "shift", PropertyRule::interpolate);
+    for (const char* format : {"msh41", "msh22"}) {
+        write_mesh(mesh, folder / "a.msh", {format});
+        const TetMesh back = read_mesh(folder / "a.msh");
+        for (const EntityKind kind : {EntityKind::vertex, EntityKind::cell})
+            for (const auto& property : mesh.properties(kind).all()) {
+                if (!property) continue;
+                const auto& all = back.properties(kind).all();
+                const auto same =
+                    std::ranges::find_if(all, [&](auto& p) { return p->name() == property->name(); });
+                CAPTURE(property->name());
+                REQUIRE(same != all.end());
+                CHECK((*same)->rule() == property->rule());
+            }
+        const std::string good = bytes_of(folder / "a.msh");
+        std::ofstream(folder / "b.msh", std::ios::binary) << with(good, "\"mass\" share", "\"mass\" shave");
+        CHECK(test::has(test::message([&] { read_mesh(folder / "b.msh"); }),
+                        "'shave' is no rule of properties"));
+    }
 }
 
 TEST_CASE("rules that mean nothing are refused, with the array named") {

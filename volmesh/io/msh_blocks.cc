@@ -180,6 +180,7 @@ void write_fields(OutputFile& out, const TetMesh& mesh, const std::vector<CellHa
         }
     }
     write_types(out, fields);
+    write_rules(out, mesh, fields);
 }
 
 }  // namespace maille::volmesh::io::msh

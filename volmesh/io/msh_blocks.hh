@@ -41,8 +41,10 @@ int type_of_dimension(int dimension);
 void write_head(OutputFile& out, const TetMesh& mesh, bool is_version_4, bool is_binary);
 /// $PhysicalNames, if there are any.
 void write_names(OutputFile& out, const TetMesh& mesh);
-/// $NodeData, and $ElementData for the elements in the order given: what isn't a cell gets the value of its
-/// cell.
+/// $MailleRules, if there are any that a reader would not choose by itself.
+void write_rules(OutputFile& out, const TetMesh& mesh, const std::vector<Field>& fields);
+/// $NodeData, the rules, and $ElementData for the elements in the order given: what isn't a cell gets the
+/// value of its cell.
 void write_fields(OutputFile& out, const TetMesh& mesh, const std::vector<CellHandle>& elements,
                   bool is_binary);
 

@@ -33,6 +33,9 @@ struct Contents {
     std::map<DimTag, std::vector<Index>> members;
     std::vector<std::pair<std::string, FieldType>> vertex_types, cell_types;
     std::vector<Index> cell_order;
+    using Named = std::pair<std::string, EntityKind>;
+    std::vector<std::pair<Named, RuleDraft>> set_rules;
+    std::vector<std::pair<Named, PropertyRule>> property_rules;
 };
 
 /// Gmsh's numbers for the elements that a mesh is read from.
@@ -51,6 +54,10 @@ void sort_nodes(Contents& contents, const MshSource& source);
 /// The cells that no set has are put in a group of that name, since Gmsh saves, and others read, nothing
 /// outside groups once there is one.
 inline constexpr const char* group_of_rest = "(no set)";
+
+/// $MailleRules; and what to do when all is read.
+void read_rules(Contents& contents, MshSource& source);
+void set_rules(Contents& contents);
 
 // ---- the sections of one version
 // ----------------------------------------------------------------------------------

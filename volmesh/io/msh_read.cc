@@ -146,7 +146,8 @@ SectionReader reader_of(const std::string& section, bool is_version_4) {
     static const std::map<std::string, SectionReader> common{
         {"PhysicalNames", read_names},        {"NodeData", read_node_data},
         {"ElementData", read_element_data},   {"MailleEntities", read_groups_of_cells},
-        {"MailleCellOrder", read_cell_order}, {"MailleProperties", read_types}};
+        {"MailleCellOrder", read_cell_order}, {"MailleProperties", read_types},
+        {"MailleRules", read_rules}};
     static const std::map<std::string, SectionReader> of_version_4{
         {"Entities", read_entities},
         {"PartitionedEntities", read_partitioned_entities},
@@ -279,6 +280,7 @@ TetMesh read_msh(const Path& path) {
     msh::restore_cell_order(contents, file.name());
     msh::set_types(contents);
     msh::make_sets(contents);
+    msh::set_rules(contents);
     return assemble(std::move(contents.draft), path);
 }
 
