@@ -1,3 +1,6 @@
+#include <cmath>
+#include <functional>
+#include <numbers>
 #include <random>
 
 #include <doctest/doctest.h>
@@ -238,5 +241,128 @@ TEST_CASE("The corners of a pyramid lie on all its planes") {
         const auto image = projector.project(sides, tip + random_point(random, 0.1));
         REQUIRE(image);
         CHECK((*image - tip).norm() < 1e-13 * projector.model_size);
+    }
+}
+
+namespace {
+
+/// A curve in which two faces meet, with a parametrization of its own.
+struct KnownCurve {
+    const char* name;
+    std::vector<std::shared_ptr<const Shape>> shapes;  ///< one, or two
+    std::array<std::uint32_t, 2> surfaces;             ///< numbers
+    std::function<Point(double)> at;                   ///< from 0 to 2 pi
+};
+
+std::vector<KnownCurve> known_curves(std::mt19937& random) {
+    const Eigen::Affine3d frame = test::random_frame(random, 2);
+    const auto slab = [&](const Eigen::Affine3d& by) { return make_cube({6, 6, 6}, true, frame * by); };
+    const Eigen::Affine3d up(Eigen::Translation3d(0, 0, 3.4)), aside(Eigen::Translation3d(3.7, 0, 0));
+    const Eigen::Affine3d offset(Eigen::Translation3d(0.4, 0, 0));
+    Eigen::Affine3d sheared = Eigen::Affine3d::Identity();  // its lower face is the plane z = 0.4 + 0.2 x
+    sheared.linear()(2, 0) = 0.2;
+    sheared = up * sheared;
+    return {
+        {"rim",
+         {make_cylinder(1, 0.7, 0.7, false, frame)},
+         {0, 2},
+         [=](double u) { return Point(frame * Point(0.7 * std::cos(u), 0.7 * std::sin(u), 1)); }},
+        {"cone's rim",
+         {make_cylinder(1, 0.9, 0.3, false, frame)},
+         {0, 1},
+         [=](double u) { return Point(frame * Point(0.9 * std::cos(u), 0.9 * std::sin(u), 0)); }},
+        {"ellipsoid by a plane",
+         {make_sphere(1, frame), slab(up)},
+         {0, 5},
+         [=](double u) {
+             const double r = std::sqrt(1 - 0.16);
+             return Point(frame * Point(r * std::cos(u), r * std::sin(u), 0.4));
+         }},
+        {"ellipsoid by a cylinder",
+         {make_sphere(1, frame), make_cylinder(3, 0.5, 0.5, true, frame * offset)},
+         {0, 1},
+         [=](double u) {
+             const double x = 0.4 + 0.5 * std::cos(u), y = 0.5 * std::sin(u);
+             return Point(frame * Point(x, y, std::sqrt(1 - x * x - y * y)));
+         }},
+        {"cone by a slanting plane",
+         {make_cylinder(2, 1, 0, false, frame), slab(sheared)},
+         {0, 6},
+         [=](double u) {
+             // z = 0.4 + 0.2 x, x = (1 - z / 2) cos u.
+             const double z = (0.4 + 0.2 * std::cos(u)) / (1 + 0.1 * std::cos(u)), r = 1 - z / 2;
+             return Point(frame * Point(r * std::cos(u), r * std::sin(u), z));
+         }},
+        {"torus by a plane",
+         {make_torus(1.2, 0.4, frame), slab(aside)},
+         {0, 1},
+         [=](double u) {
+             const double rho = 1.2 + 0.4 * std::cos(u);
+             return Point(frame * Point(0.7, std::sqrt(rho * rho - 0.49), 0.4 * std::sin(u)));
+         }},
+    };
+}
+
+/// The least distance from p to the curve, from samples, then closer ones around the best.
+double brute_distance(const KnownCurve& curve, const Point& p) {
+    constexpr int samples = 400;
+    double best = 0, width = std::numbers::pi, least = 1e300;
+    for (int level = 0; level < 10; ++level, width /= 40) {
+        const double middle = best;
+        for (int i = -samples; i <= samples; ++i) {
+            const double u = middle + width * i / samples;
+            const double distance = (curve.at(u) - p).norm();
+            if (distance < least) least = distance, best = u;
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+TEST_CASE("The nearest points of curves, against samples of the curves") {
+    constexpr unsigned seed = 23;
+    MESSAGE("seed " << seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi);
+    for (int round = 0; round < 12; ++round)
+        for (const KnownCurve& curve : known_curves(random)) {
+            CAPTURE(curve.name);
+            const auto projector = maille::modeler::projector(model_of(curve.shapes));
+            for (int i = 0; i < 20; ++i) {
+                const Point on_curve = curve.at(angle(random)), p = on_curve + random_point(random, 0.03);
+                const auto stays = projector.project(curve.surfaces, on_curve);
+                REQUIRE(stays);
+                CHECK((*stays - on_curve).norm() < 1e-12 * projector.model_size);
+                const auto image = projector.project(curve.surfaces, p);
+                REQUIRE(image);
+                CHECK(std::abs((*image - p).norm() - brute_distance(curve, p)) <
+                      1e-12 * projector.model_size);
+            }
+        }
+}
+
+TEST_CASE("Corners where round and flat surfaces meet are found from near them") {
+    constexpr unsigned seed = 29;
+    MESSAGE("seed " << seed);
+    std::mt19937 random(seed);
+    for (int round = 0; round < 50; ++round) {
+        const Eigen::Affine3d frame = test::random_frame(random, 2);
+        const Eigen::Affine3d low(Eigen::Translation3d(0, 0, -2.7)), left(Eigen::Translation3d(-2.8, 0, 0));
+        // The planes z = 0.3 and x = 0.2, the unit ball, a cylinder of radius 0.5 around z.
+        const auto projector = maille::modeler::projector(
+            model_of({make_sphere(1, frame), make_cylinder(3, 0.5, 0.5, true, frame),
+                      make_cube({6, 6, 6}, true, frame * low), make_cube({6, 6, 6}, true, frame * left)}));
+        const auto check = [&](const std::vector<std::string>& names, const Point& corner) {
+            const Point expected = frame * corner;
+            const auto found = project(projector, names, expected + random_point(random, 0.02));
+            REQUIRE(found);
+            CHECK((*found - expected).norm() < 1e-12 * projector.model_size);
+        };
+        check({"part0/surface", "part2/z+", "part3/x+"}, {0.2, std::sqrt(1 - 0.09 - 0.04), 0.3});
+        check({"part1/side", "part2/z+", "part3/x+"}, {0.2, std::sqrt(0.25 - 0.04), 0.3});
+        check({"part0/surface", "part1/side", "part3/x+"}, {0.2, std::sqrt(0.21), std::sqrt(0.75)});
+        // Four surfaces through one point.
+        check({"part1/side", "part2/z+", "part3/x+", "part2/z+/inner"}, {0.2, std::sqrt(0.21), 0.3});
     }
 }
