@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "modeler/build_copies.hh"
 #include "modeler/build_size.hh"
 #include "modeler/closed_surface.hh"
 #include "modeler/merge_operand.hh"
@@ -58,16 +59,18 @@ std::vector<std::uint32_t> first_surfaces(const Model& model) {
     return first;
 }
 
-std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& options,
-                                     std::vector<std::string>& warnings) {
+/// Primitives that differ in place only are meshed once.
+std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& options, BuildReport& report) {
     const std::size_t n = model.primitives.size();
     const std::vector<double> sizes = sizes_of_primitives(model, options);
     const std::vector<std::uint32_t> first = first_surfaces(model);
     std::vector<std::uint8_t> may_own(n);
     mark_owners(model.tree, may_own);
+    const std::vector<std::size_t> original = first_alike(model.primitives, sizes, may_own);
     std::vector<Operand> operands(n);
     std::vector<std::vector<std::string>> warnings_of(n);
     parallel_for(n, options.threads, [&](std::size_t i) {
+        if (original[i] != i) return;
         const Primitive& primitive = model.primitives[i];
         Operand& operand = operands[i];
         operand.name = primitive.name;
@@ -85,7 +88,14 @@ std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& opt
             warnings_of[i].push_back(error.what());
         }
     });
-    for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(warnings));
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t j = original[i];
+        if (j == i) continue;
+        operands[i] =
+            moved_operand(operands[j], model.primitives[j], model.primitives[i], first[j], first[i]);
+        ++report.moved_primitives;
+    }
+    for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(report.warnings));
     return operands;
 }
 
@@ -139,17 +149,30 @@ void name_cells(TetMesh& mesh, const std::vector<std::uint32_t>& regions, const 
         for (const SetHandle set : sets[regions[c.idx()]]) mesh.insert(set, c);
 }
 
-void name_faces(TetMesh& mesh, const std::vector<InterfaceFace>& faces, const Model& model) {
+void name_faces(TetMesh& mesh, const std::vector<std::uint32_t>& regions,
+                const std::vector<InterfaceFace>& faces, const Model& model) {
     const std::vector<ModelSurface> numbered = surfaces(model);
     std::vector<std::array<SetHandle, 2>> sets(numbered.size());  // of the boundary, of inner faces
     const auto is_inner = [&](const InterfaceFace& face) { return !mesh.is_boundary(face.face); };
-    for (const InterfaceFace& face : faces) sets[face.surface][is_inner(face)] = SetHandle(0);
+    const auto given_name = [&](const InterfaceFace& face) -> const std::string* {
+        if (is_inner(face)) return nullptr;
+        const std::uint32_t owner = regions[TetMesh::incident_cell(face.face).idx()];
+        const auto& names = model.primitives[owner].boundary_names;
+        const auto found = names.find(face.surface);
+        return found == names.end() ? nullptr : &found->second;
+    };
+    for (const InterfaceFace& face : faces)
+        if (given_name(face) == nullptr) sets[face.surface][is_inner(face)] = SetHandle(0);
     for (std::size_t s = 0; s < sets.size(); ++s)
         for (const bool inner : {false, true})
             if (SetHandle& set = sets[s][inner]; set.is_valid())
                 set = named_set(mesh, numbered[s].name + std::string(inner ? inner_suffix : ""),
                                 EntityKind::face);
-    for (const InterfaceFace& face : faces) mesh.insert(sets[face.surface][is_inner(face)], face.face);
+    for (const InterfaceFace& face : faces)
+        if (const std::string* name = given_name(face))
+            mesh.insert(named_set(mesh, *name, EntityKind::face), face.face);
+        else
+            mesh.insert(sets[face.surface][is_inner(face)], face.face);
 }
 
 }  // namespace
@@ -161,7 +184,7 @@ TetMesh build(const Model& model, const BuildOptions& options, BuildReport* repo
     std::vector<Operand> operands;
     {
         const PhaseTimer timer(told.primitives);
-        operands = mesh_primitives(model, options, told.warnings);
+        operands = mesh_primitives(model, options, told);
     }
     const PhaseTimer timer(told.merge);
     const auto n_surfaces = static_cast<std::uint32_t>(surfaces(model).size());
@@ -171,7 +194,7 @@ TetMesh build(const Model& model, const BuildOptions& options, BuildReport* repo
     told.kept_cells = merged.kept_cells.size();
     told.new_cells = merged.mesh.n_cells() - told.kept_cells;
     name_cells(merged.mesh, merged.regions, model);
-    name_faces(merged.mesh, merged.faces, model);
+    name_faces(merged.mesh, merged.regions, merged.faces, model);
     return std::move(merged.mesh);
 }
 

@@ -16,6 +16,7 @@ struct BuildReport {
     PhaseTime merge;             ///< from there to the mesh of the model
     std::size_t kept_cells = 0;  ///< as the primitives had them
     std::size_t new_cells = 0;
+    std::size_t moved_primitives = 0;  ///< of which the mesh is another primitive's, moved
     std::vector<std::string> warnings;  ///< what failed and was done in another way
 };
 

@@ -15,7 +15,7 @@
 #include "modeler/language_transforms.hh"
 #include "modeler/model.hh"
 #include "modeler/name_table.hh"
-#include "modeler/shapes.hh"
+#include "modeler/pending_halfspace.hh"
 #include "modeler/solid_extent.hh"
 #include "modeler/tree_building.hh"
 
@@ -56,14 +56,6 @@ struct Context {
     std::string name;
     std::string material;
     double size = 0;
-};
-
-/// A half-space cannot take its shape before the size of everything else is known.
-struct PendingHalfspace {
-    std::uint32_t primitive;
-    Location at;
-    Point point;
-    Point normal;
 };
 
 /// The factors of the `resize` nodes met so far.
@@ -239,45 +231,26 @@ class ModelMaker {
         if (normal.isZero(0)) throw arguments.error("normal", "the normal must not be 0");
         const Eigen::Affine3d& frame = context.placement.frame;
         CsgTree leaf = add_primitive(node, context, nullptr);
+        halfspace_at_[leaf.primitive] = node.at;
         halfspaces_.push_back({.primitive = leaf.primitive,
-                               .at = node.at,
                                .point = frame * arguments.vector("point"),
                                .normal = (frame.linear().inverse().transpose() * normal).stableNormalized()});
         return leaf;
     }
 
-    /// Gives every half-space the piece of it that covers the bounded solids.
     void shape_halfspaces() {
-        const auto is_halfspace = [&](std::uint32_t i) { return model_.primitives[i].shape == nullptr; };
-        if (const auto culprit = unbounded_leaf(model_.tree, is_halfspace)) {
-            const auto found = std::ranges::find(halfspaces_, *culprit, &PendingHalfspace::primitive);
+        if (const auto culprit = modeler::shape_halfspaces(model_, halfspaces_))
             throw located_error(
-                file_, found->at,
+                file_, halfspace_at_.at(*culprit),
                 "this half-space makes the model endless: intersect it with a solid, or subtract it "
                 "from one");
-        }
-        Eigen::AlignedBox3d box;
-        for (const Primitive& primitive : model_.primitives)
-            if (primitive.shape) box.extend(primitive.shape->bounding_box());
-        for (const PendingHalfspace& halfspace : halfspaces_)
-            model_.primitives[halfspace.primitive].shape = make_halfspace(
-                halfspace.point, halfspace.normal, clip_box(box, halfspace), Eigen::Affine3d::Identity());
-    }
-
-    /// Larger than the box, so that no face of the piece but its plane comes near a solid, and cut by the
-    /// plane.
-    static Eigen::AlignedBox3d clip_box(Eigen::AlignedBox3d box, const PendingHalfspace& halfspace) {
-        const Point center = box.center();
-        const double distance = halfspace.normal.dot(center - halfspace.point);
-        box.extend(Point(center - distance * halfspace.normal));
-        const Point margin = Point::Constant(box.diagonal().norm() / 10);
-        return {box.min() - margin, box.max() + margin};
     }
 
     const std::string& file_;
     Resizes& resizes_;
     Model model_;
     std::vector<PendingHalfspace> halfspaces_;
+    std::map<std::uint32_t, Location> halfspace_at_;
 };
 
 }  // namespace
@@ -298,20 +271,8 @@ Model read_model(const std::filesystem::path& path, Facets facets) {
     if (std::filesystem::is_directory(path) || !file)
         throw InputError(fmt::format("{}: cannot read this file", path.string()));
     text << file.rdbuf();
+    if (path.extension() == ".geo") return parse_geo_model(text.view(), path.string());
     return parse_model(text.view(), path.string(), facets);
-}
-
-std::vector<ModelSurface> surfaces(const Model& model) {
-    std::vector<ModelSurface> result;
-    for (std::uint32_t primitive = 0; primitive < model.primitives.size(); ++primitive) {
-        const auto faces = model.primitives[primitive].shape->faces();
-        for (std::uint32_t face = 0; face < faces.size(); ++face)
-            result.push_back(
-                {.primitive = primitive,
-                 .face = face,
-                 .name = fmt::format("{}/{}", model.primitives[primitive].name, faces[face].name)});
-    }
-    return result;
 }
 
 }  // namespace maille::modeler

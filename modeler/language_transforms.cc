@@ -30,18 +30,7 @@ Eigen::Affine3d mirror(const Node& node, const std::string& file) {
     const Arguments arguments(node, file, {"v"});
     const Point normal = arguments.vector("v", 0);
     if (normal.isZero(0)) throw arguments.error("v", "the normal of the mirror must not be 0");
-    const Point unit = normal.stableNormalized();
-    return linear(Eigen::Matrix3d::Identity() - 2 * unit * unit.transpose());
-}
-
-/// Rodrigues' formula, with right angles exact.
-Eigen::Matrix3d rotation(const Point& axis, double degrees) {
-    const Point unit = axis.stableNormalized();
-    Eigen::Matrix3d cross;
-    cross << 0, -unit.z(), unit.y(), unit.z(), 0, -unit.x(), -unit.y(), unit.x(), 0;
-    const double cosine = cos_degrees(degrees);
-    return cosine * Eigen::Matrix3d::Identity() + sin_degrees(degrees) * cross +
-           (1 - cosine) * unit * unit.transpose();
+    return linear(mirror_image(normal));
 }
 
 Eigen::Affine3d rotate(const Node& node, const std::string& file) {
@@ -90,6 +79,21 @@ TransformReader find_transform(std::string_view name) {
 
 std::vector<std::string_view> transform_names() {
     return names_of(transforms);
+}
+
+/// By Rodrigues' formula.
+Eigen::Matrix3d rotation(const Point& axis, double degrees) {
+    const Point unit = axis.stableNormalized();
+    Eigen::Matrix3d cross;
+    cross << 0, -unit.z(), unit.y(), unit.z(), 0, -unit.x(), -unit.y(), unit.x(), 0;
+    const double cosine = cos_degrees(degrees);
+    return cosine * Eigen::Matrix3d::Identity() + sin_degrees(degrees) * cross +
+           (1 - cosine) * unit * unit.transpose();
+}
+
+Eigen::Matrix3d mirror_image(const Point& normal) {
+    const Point unit = normal.stableNormalized();
+    return Eigen::Matrix3d::Identity() - 2 * unit * unit.transpose();
 }
 
 bool is_regular(const Eigen::Affine3d& map) {

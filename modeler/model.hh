@@ -32,7 +32,7 @@ struct Model {
 struct ModelSurface {
     std::uint32_t primitive;
     std::uint32_t face;
-    std::string name;  ///< "<primitive>/<face>": the face set of the boundary faces that lie on it
+    std::string name;  ///< the face set of the boundary faces that lie on it: "<primitive>/<face>", or given
 };
 
 /// All surfaces of the model, primitive by primitive, face by face. The position in this list is the number
@@ -43,12 +43,17 @@ std::vector<ModelSurface> surfaces(const Model& model);
 /// set has the surface's name with this after it.
 inline constexpr std::string_view inner_suffix = "/inner";
 
-/// Reads a model file (.csg: OpenSCAD's dump, and the language's own additions).
-/// Throws InputError with file, line and column on anything that it cannot use.
+/// Reads a model file: Netgen's CSG where it ends in .geo (`facets` does not matter then), else OpenSCAD's dump
+/// with the language's own additions. Throws InputError with file, line and column on anything that it cannot
+/// use.
 Model read_model(const std::filesystem::path& path, Facets facets = Facets::automatic);
 
-/// The same from memory; `name` stands for the file in messages.
+/// OpenSCAD's dump from memory; `name` stands for the file in messages.
 Model parse_model(std::string_view text, const std::string& name, Facets facets = Facets::automatic);
+
+/// Netgen's CSG (`algebraic3d`) from memory. One part of the mesh for each top-level object, which is called by
+/// its name and has its material.
+Model parse_geo_model(std::string_view text, const std::string& name);
 
 /// The point nearest to p that lies on all the surfaces given by number, as volmesh::Projector has it. It
 /// holds the shapes, and outlives the model.
@@ -58,7 +63,7 @@ SurfaceProjection surface_projection(const Model& model);
 
 /// The model's surfaces as a mesh asks for them, by the names of its face sets. It holds the shapes, and
 /// outlives the model. Its surfaces are those of `surfaces(model)`, of which several may bear one name (two
-/// holes called "hole"), followed by the same with `inner_suffix`.
+/// holes called "hole"), followed by the same with `inner_suffix`, and by the boundary names of primitives.
 volmesh::Projector projector(const Model& model);
 
 }  // namespace maille::modeler

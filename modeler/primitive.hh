@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -53,6 +54,11 @@ struct Primitive {
     std::string name;      ///< given, or "cube1", "sphere2", ...
     std::string material;  ///< empty where none was given
     double size = 0;       ///< wanted edge length; 0 where none was given
+    /// What the surfaces of its faces are called; "<name>/<face>" where none are given.
+    std::vector<std::string> surface_names{};
+    /// By surface number in the model: the face set of the boundary faces of its own cells that lie there,
+    /// instead of the surface's name.
+    std::map<std::uint32_t, std::string> boundary_names{};
 };
 
 }  // namespace maille::modeler

@@ -22,6 +22,8 @@ struct ProfileEdge {
     double length() const;
     Point2 at(double t) const;  ///< from 0 to 1
     bool on_axis() const { return from.x() == 0 && to.x() == 0 && !centre; }
+
+    friend bool operator==(const ProfileEdge&, const ProfileEdge&) = default;
 };
 
 /// Loops of edges: an outline, counter-clockwise, and holes, clockwise. They don't meet.

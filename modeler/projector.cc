@@ -56,16 +56,23 @@ volmesh::Projector projector(const Model& model) {
     const auto count = static_cast<std::uint32_t>(result.surfaces.size());
     for (std::uint32_t i = 0; i < count; ++i)
         result.surfaces.push_back(result.surfaces[i] + std::string(inner_suffix));
+    std::vector<std::uint32_t> numbers(result.surfaces.size());
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i % count;
+    for (const Primitive& primitive : model.primitives)
+        for (const auto& [number, name] : primitive.boundary_names) {
+            result.surfaces.push_back(name);
+            numbers.push_back(number);
+        }
     result.model_size = size_of(model);
-    result.project = [project = surface_projection(model), count](std::span<const std::uint32_t> numbers,
-                                                                  const Point& p) {
-        std::vector<std::uint32_t> outer(numbers.begin(), numbers.end());
-        for (std::uint32_t& number : outer) number %= count;
-        return project(outer, p);
+    result.project = [project = surface_projection(model), numbers](std::span<const std::uint32_t> asked,
+                                                                    const Point& p) {
+        std::vector<std::uint32_t> surfaces;
+        for (const std::uint32_t i : asked) surfaces.push_back(numbers[i]);
+        return project(surfaces, p);
     };
-    result.curvature = [faces = all_faces(model), shapes = shapes_of(model)](std::uint32_t number,
-                                                                             const Point& p) {
-        const auto& [shape, face] = faces[number % faces.size()];
+    result.curvature = [faces = all_faces(model), shapes = shapes_of(model), numbers](std::uint32_t asked,
+                                                                                      const Point& p) {
+        const auto& [shape, face] = faces[numbers[asked]];
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(shape->face_curvature(face, p),
                                                                     Eigen::EigenvaluesOnly);
         return solver.eigenvalues().cwiseAbs().maxCoeff();

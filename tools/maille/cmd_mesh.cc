@@ -65,7 +65,7 @@ void add_mesh_command(CLI::App& program) {
         program, "mesh", "Make a tetrahedral mesh of a CSG model",
         "maille mesh examples/bracket.csg --size 4 --refine '0.4+3*(1-exp(-r/10))' -o bracket.vtu", options,
         run);
-    command.add_option("MODEL", options->model.path, "Model file (.csg)")->required();
+    command.add_option("MODEL", options->model.path, "Model file (.csg, .geo)")->required();
     add_output_options(command, options->output);
     command.add_option("--size", options->start_size, start_size_help)->type_name("EXPR");
     add_facets_option(command, options->model);

@@ -81,7 +81,7 @@ void add_refine_command(CLI::App& program) {
     CLI::App& command = add_command(
         program, "refine", "Refine a mesh, or the mesh of a model, to a size",
         "maille refine examples/tee.csg --size 0.1 --method rivara --order longest -o tee.msh", options, run);
-    command.add_option("MESH", options->input, "Mesh file, or model file (.csg)")->required();
+    command.add_option("MESH", options->input, "Mesh file, or model file (.csg, .geo)")->required();
     add_output_options(command, options->output);
     add_size_options(command, "--size", options->size, std::string("Wanted size: ") + refined_size_help)
         ->required();

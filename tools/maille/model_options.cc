@@ -29,7 +29,8 @@ modeler::Model read(const ModelOptions& options) {
 }
 
 bool is_model_file(const std::string& path) {
-    return std::filesystem::path(path).extension() == ".csg";
+    const auto extension = std::filesystem::path(path).extension();
+    return extension == ".csg" || extension == ".geo";
 }
 
 }  // namespace maille::tools
