@@ -41,16 +41,16 @@ struct ImproveResult {
 ///
 /// No move lowers the least objective of the cells that it changes, but that one for the mean may where it
 /// stays above both three quarters of `good_enough` and the mesh's least. So this never goes down, and an
-/// inverted cell may come right but none arises. Sets and properties
-/// pass on by their rules, the volume of each cell set and the area of each flat face set stay. Vertices keep
-/// to their geometric support: the surfaces that their faces' sets name, where `projector` knows these; else
-/// the planes of their faces, where these are flat; else they stay. So do vertices in a vertex set, on an
-/// edge of an edge set, and where two different parts of one surface meet. Faces and curves come no farther
-/// from the true surfaces, measured in their middles.
+/// inverted cell may come right but none arises. Sets and properties pass on by their rules, the volume of
+/// each cell set and the area of each flat face set stay. Vertices keep to their geometric support: the
+/// surfaces that their faces' sets name, where `projector` knows these; else the planes of their faces, where
+/// these are flat; else they stay. So do vertices in a vertex set, on an edge of an edge set, and where two
+/// different parts of one surface meet. Faces and curves come no farther from the true surfaces, measured in
+/// their middles.
 ///
-/// Cells and vertices are renumbered (garbage_collection()) if connectivity changes. The result depends on
-/// the mesh and the options alone. Whatever the projector or the size throws passes through; the mesh is then
-/// valid and partly improved.
+/// Cells and vertices are renumbered if connectivity may change. The result depends on the mesh and the
+/// options alone, not on the number of threads. Whatever the projector or the size throws passes through; the
+/// mesh is then valid and partly improved.
 ImproveResult improve(volmesh::TetMesh& mesh, const ImproveOptions& options = {},
                       const volmesh::Projector* projector = nullptr);
 

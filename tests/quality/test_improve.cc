@@ -287,6 +287,33 @@ TEST_CASE("the mean of a bisected mesh rises to what is wanted, with any number 
     }
 }
 
+TEST_CASE("a large mesh that is far from its aim, too, comes out the same with any number of threads") {
+    TetMesh mesh = shaken_cube(22, false, 41);
+    name_sides(mesh);
+    const SetHandle half = mesh.add_set("half", EntityKind::cell);
+    for (std::uint32_t i = 0; i < mesh.n_cells() / 2; ++i) mesh.insert(half, CellHandle(i));
+    const double half_before = measure(mesh, half);
+    CHECK(assess(mesh)[Measure::beta].mean < 0.7);
+    const double worst_before = worst(mesh);
+    TetMesh other = mesh;
+    {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 3);
+        improve(mesh);
+    }
+    {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+        improve(other);
+    }
+    CHECK(std::ranges::equal(mesh.points(), other.points()));
+    CHECK(std::ranges::equal(mesh.cell_vertex_indices(), other.cell_vertex_indices()));
+    CHECK(validate(mesh).ok());
+    CHECK(assess(mesh)[Measure::beta].mean > 0.75);
+    CHECK(worst(mesh) > worst_before);
+    CHECK(measure(mesh, half) == doctest::Approx(half_before).epsilon(1e-12));
+    for (const auto& name : side_names)
+        CHECK(measure(mesh, mesh.find_set(name, EntityKind::face)) == doctest::Approx(1).epsilon(1e-12));
+}
+
 TEST_CASE("raising the mean makes no cell the worst") {
     TetMesh mesh = bisected_cube(12);
     const TetMesh start = mesh;
