@@ -49,7 +49,7 @@ bool is_thick(const TetMesh& mesh, CellHandle c) {
 
 }  // namespace
 
-Bisector::Bisector(TetMesh& mesh) : mesh_(mesh), longest_edge_(mesh) {
+Bisector::Bisector(TetMesh& mesh, Ties ties) : mesh_(mesh), longest_edge_(mesh, ties) {
     state_.grow(mesh.n_cells());
     lineage_.n_vertices_before = mesh.n_vertices();
     lineage_.cell_ancestors.resize(mesh.n_cells());
@@ -57,6 +57,14 @@ Bisector::Bisector(TetMesh& mesh) : mesh_(mesh), longest_edge_(mesh) {
     for_each_index(mesh.n_cells(), [&](std::size_t i) {
         state_[i] = static_cast<std::uint8_t>(longest_edge_.of(CellHandle(static_cast<std::uint32_t>(i))) |
                                               changed_bit);
+    });
+}
+
+void Bisector::begin_pass(std::span<const CellHandle> marked) {
+    if (!longest_edge_.begin_pass(marked)) return;
+    for_each_index(state_.size(), [&](std::size_t i) {
+        const int longest = longest_edge_.of(CellHandle(static_cast<std::uint32_t>(i)));
+        state_[i] = static_cast<std::uint8_t>((state_[i] & ~edge_mask) | longest);
     });
 }
 

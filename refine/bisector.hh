@@ -18,7 +18,11 @@ using volmesh::EdgeStars;
 class Bisector {
   public:
     /// The mesh must not be edited by others from then on, except that points may be moved (see `refresh`).
-    explicit Bisector(TetMesh& mesh);
+    explicit Bisector(TetMesh& mesh, Ties ties = Ties::order);
+
+    /// A pass begins that is to refine these cells: from now on they decide between edges of one length,
+    /// where the rule for ties asks for them. Cost: then it looks at all cells of the mesh.
+    void begin_pass(std::span<const CellHandle> marked);
 
     /// The cells that are new or have changed since they were last taken, ascending (the paper's E_r, and
     /// more): all at first. Cost: a byte is read for each cell of the mesh.
@@ -67,9 +71,8 @@ class Bisector {
 
     TetMesh& mesh_;
     LongestEdge longest_edge_;
-    volmesh::Column<std::uint8_t>
-        state_;                    ///< by cell: its longest edge, whether it is born, changed, claimed
-    std::vector<CellHandle> log_;  ///< cells that `refresh` and single splits have changed, in order
+    volmesh::Column<std::uint8_t> state_;  ///< by cell: its longest edge, whether it is born, changed, claimed
+    std::vector<CellHandle> log_;          ///< cells that `refresh` and single splits have changed, in order
     Lineage lineage_;
 };
 

@@ -120,8 +120,9 @@ PaperRun run_once(int example, Method method, Order order) {
     run.method = method;
     run.order = order;
     const std::clock_t start = std::clock();
-    const RefineResult result =
-        refine(mesh, size, {.method = method, .order = order, .max_iterations = 50, .max_cells = 1000000});
+    const RefineResult result = refine(
+        mesh, size,
+        {.method = method, .order = order, .ties = Ties::fewest, .max_iterations = 50, .max_cells = 1000000});
     run.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     run.iterations = result.iterations;
     run.ended = result.ended;

@@ -10,6 +10,7 @@
 #include <tbb/task_arena.h>
 
 #include "refine/bisector.hh"
+#include "refine/curve_order.hh"
 #include "refine/project.hh"
 #include "refine/relocate.hh"
 #include "refine/rivara.hh"
@@ -39,7 +40,7 @@ class Refinement {
   public:
     Refinement(TetMesh& mesh, const SizeField& size, const RefineOptions& options,
                const volmesh::Projector* projector)
-        : mesh_(mesh), size_(size), options_(options), bisector_(mesh) {
+        : mesh_(mesh), size_(size), options_(options), bisector_(mesh, options.ties), curve_(mesh) {
         if (projector != nullptr && options.project) {
             projection_.emplace(mesh, *projector, options.min_shape);
             project(0);
@@ -93,7 +94,10 @@ class Refinement {
     Cells mark() {
         const Stopwatch watch(result_.seconds.mark);
         Cells marked = cells_to_refine(bisector_, bisector_.take_changed(), size_, options_.ratio);
-        sort_cells(marked, bisector_, options_.order);
+        if (options_.method == Method::rivara && options_.order == Order::none)
+            curve_.sort(marked, mesh_);  // the mesh is the same in any order
+        else
+            sort_cells(marked, bisector_, options_.order);
         return marked;
     }
 
@@ -102,6 +106,7 @@ class Refinement {
         const std::uint32_t first_new = mesh_.n_vertices();
         {
             const Stopwatch watch(result_.seconds.split);
+            bisector_.begin_pass(marked);
             bisector_.refresh(bisect(marked));
         }
         project(first_new);
@@ -167,6 +172,7 @@ class Refinement {
     SizeField size_;
     const RefineOptions& options_;
     Bisector bisector_;
+    CurveOrder curve_;
     std::optional<BoundaryProjection> projection_;
     std::size_t fewest_short_ = std::numeric_limits<std::size_t>::max();
     int n_failed_rescues_ = 0;

@@ -32,6 +32,7 @@ struct RefineOptions {
     /// Rivara's mesh does not depend on the order, but for the numbering: ties between edges are broken by a
     /// total order, which makes the closure of a pass unique. Plain bisection's does.
     Order order = Order::none;
+    Ties ties = Ties::order;
     double ratio =
         1.5;  ///< an element is refined while its longest edge is longer than this times the size wanted
     /// Lets the size grow by no more than this for each unit of length (`limit_growth`); 0: however it does.

@@ -178,6 +178,17 @@ class Refine(MailleCase):
                 self.assertAlmostEqual(self.info("fine.msh")["volume"], 1, 12)
                 self.assertAlmostEqual(self.sets("fine.msh", "face")["cube1/z+"], 1, 12)
 
+    def test_a_rule_for_ties_decides_what_is_split(self):
+        # Four cells round an inner axis that is as long as the edges of the boundary round the equator.
+        self.model("6 3 0 0\n0 1 -1 0\n1 1 1 0\n2 -1 1 0\n3 -1 -1 0\n4 0 0 -1\n5 0 0 1\n", "octahedron.node")
+        self.model("4 4 0\n0 0 1 4 5\n1 1 2 4 5\n2 2 3 4 5\n3 3 0 4 5\n", "octahedron.ele")
+        cells = {}
+        for ties in ("order", "fewest", "boundary"):
+            done = self.run_maille("refine", "octahedron.node", "--size", "1.3+10*(x>-0.4)", "--method", "bisection",
+                                   "--max-iterations", "1", "--ties", ties, "-o", "split.msh", "--json")
+            cells[ties] = json.loads(done.stdout)["cells"]
+        self.assertEqual(cells, {"order": 8, "fewest": 5, "boundary": 5})
+
     def test_refine_a_model(self):
         summary = self.maille_json("refine", ROOT / "examples/lens.csg", "--size", "0.25", "-o", "lens.msh")
         self.assertGreater(summary["projection"]["moved"], 0)

@@ -17,10 +17,14 @@ namespace {
 
 using refine::Method;
 using refine::Order;
+using refine::Ties;
 
 const std::map<std::string, Method> methods{{"rivara", Method::rivara}, {"bisection", Method::bisection}};
 const std::map<std::string, Order> orders{
     {"longest", Order::longest}, {"shape", Order::shape}, {"none", Order::none}};
+
+const std::map<std::string, Ties> ties{
+    {"order", Ties::order}, {"fewest", Ties::fewest}, {"boundary", Ties::boundary}};
 
 template <typename Value>
 const std::string& name_in(const std::map<std::string, Value>& names, Value value) {
@@ -79,6 +83,13 @@ void add_refine_options(CLI::App& command, refine::RefineOptions& options) {
     command.add_option("--order", options.order, "Which elements of a pass come first")
         ->transform(CLI::CheckedTransformer(orders, CLI::ignore_case).description(""))
         ->type_name("longest|shape|none");
+    command
+        .add_option(
+            "--ties", options.ties,
+            "Which of several longest edges is split: the oldest, that with the fewest elements round it "
+            "that need no refinement, or one on the boundary")
+        ->transform(CLI::CheckedTransformer(ties, CLI::ignore_case).description(""))
+        ->type_name("order|fewest|boundary");
     command
         .add_option(
             "--ratio", options.ratio,

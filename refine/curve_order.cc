@@ -1,0 +1,69 @@
+#include "refine/curve_order.hh"
+
+#include <algorithm>
+#include <array>
+
+#include <Eigen/Geometry>
+#include <tbb/parallel_for.h>
+
+namespace maille::refine {
+namespace {
+
+constexpr int bits = 9;  // of each coordinate, and sorted at a time
+constexpr std::uint32_t last_step = (1U << bits) - 1;
+
+/// Two zeros before every bit of a number of at most ten.
+std::uint32_t spread(std::uint32_t x) {
+    x = (x | (x << 16)) & 0x030000ffU;
+    x = (x | (x << 8)) & 0x0300f00fU;
+    x = (x | (x << 4)) & 0x030c30c3U;
+    return (x | (x << 2)) & 0x09249249U;
+}
+
+struct Keyed {
+    std::uint32_t key;
+    CellHandle cell;
+};
+
+/// One pass of a radix sort: by some bits of the keys, equals as they were.
+void sort_by_bits(const std::vector<Keyed>& from, std::vector<Keyed>& to, int shift) {
+    const auto digit = [shift](const Keyed& k) { return (k.key >> shift) & last_step; };
+    std::array<std::size_t, last_step + 2> begins{};
+    for (const Keyed& k : from) ++begins[digit(k) + 1];
+    for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
+    for (const Keyed& k : from) to[begins[digit(k)]++] = k;
+}
+
+}  // namespace
+
+CurveOrder::CurveOrder(const TetMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const volmesh::Point& p : mesh.points()) box.extend(p);
+    origin_ = box.isEmpty() ? volmesh::Point(0, 0, 0) : box.min();
+    const double size = box.isEmpty() ? 0 : box.sizes().maxCoeff();
+    scale_ = size > 0 ? last_step / size : 0;
+}
+
+std::uint32_t CurveOrder::key(const volmesh::Point& p) const {
+    const auto step = [&](int axis) {
+        // Vertices may be moved out of the box by a little.
+        return static_cast<std::uint32_t>(
+            std::clamp((p[axis] - origin_[axis]) * scale_, 0.0, static_cast<double>(last_step)));
+    };
+    return spread(step(0)) | (spread(step(1)) << 1) | (spread(step(2)) << 2);
+}
+
+void CurveOrder::sort(std::vector<CellHandle>& cells, const TetMesh& mesh) const {
+    std::vector<Keyed> keyed(cells.size()), other(cells.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            keyed[i] = {key(mesh.point(mesh.cell_vertex(cells[i], 0))), cells[i]};
+    });
+    for (int shift = 0; shift < 3 * bits; shift += bits) {
+        sort_by_bits(keyed, other, shift);
+        keyed.swap(other);
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = keyed[i].cell;
+}
+
+}  // namespace maille::refine
