@@ -48,7 +48,12 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 TEST_CASE("rules of sets are kept, and a refined mesh goes on as if it had never been away") {
     const test::TemporaryFolder folder;
-    for (const auto& [extension, format] : {std::pair(".vtu", ""), {".msh", ""}, {".msh", "msh22"}}) {
+    for (const auto& [extension, format] : {std::pair(".vtu", ""),
+                                            {".msh", ""},
+                                            {".msh", "msh22"},
+                                            {".mesh", ""},
+                                            {".node", ""},
+                                            {".inp", ""}}) {
         CAPTURE(extension);
         TetMesh mesh = test::kuhn_cube(2);
         const auto late =
@@ -231,4 +236,14 @@ TEST_CASE("rules that mean nothing are refused, with the array named") {
     CHECK(test::has(message("rule=\"share\"", "rule=\"interpolate\""), "mass"));
     CHECK(test::has(message("of=\"edge\"", "of=\"face\""), "numbers for 18 entities"));
     CHECK(test::has(message("of=\"edge\"", "of=\"roof\""), "'roof'"));
+
+    for (const auto& [file, mesh_file] : {std::pair("a.inp", "a.inp"), {"a.sets.json", "a.mesh"}}) {
+        write_mesh(mesh, folder / mesh_file);
+        const std::string damaged = with(bytes_of(folder / file), "from_faces of face wall", "by_magic");
+        std::ofstream(folder / file, std::ios::binary) << damaged;
+        const std::string got = test::message([&] { read_mesh(folder / mesh_file); });
+        CAPTURE(got);
+        CHECK(test::has(got, "'by_magic' is no rule of sets"));
+        CHECK(test::has(got, file));
+    }
 }

@@ -12,9 +12,9 @@
 ///
 ///     **maille set KIND LABEL "name"
 ///
-/// with its name as a JSON string; edges, for which there is no keyword, follow theirs as `**maille edge A
-/// B`. Solvers want all nodes and elements in a set: `**maille all LABEL` says which label is no set of the
-/// mesh.
+/// with its name as a JSON string, and `**maille rule "..."` where its rule is not the usual one; edges, for
+/// which there is no keyword, follow theirs as `**maille edge A B`. Solvers want all nodes and elements in a
+/// set: `**maille all LABEL` says which label is no set of the mesh.
 namespace maille::volmesh::io::abaqus {
 
 inline constexpr std::string_view note_sign = "**maille ";

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "volmesh/error.hh"
 #include "volmesh/io/abaqus.hh"
 #include "volmesh/io/abaqus_text.hh"
 #include "volmesh/io/formats.hh"
@@ -54,6 +55,7 @@ class AbaqusReader {
         std::string key;
         std::string name;
         std::vector<std::array<Index, 2>> edges;  ///< numbers of nodes
+        std::optional<RuleDraft> rule{};
     };
 
     bool next_line();
@@ -163,6 +165,14 @@ void AbaqusReader::read_note(std::string_view note) {
         if (kind == kind_names.end() || !name.is_string())
             fail("a note on a set should have its kind, its label and its name in quotes");
         names_.push_back({static_cast<EntityKind>(kind - kind_names.begin()), key, name, {}});
+    } else if (what == "rule") {
+        const auto rule = nlohmann::json::parse(note, nullptr, false);
+        if (names_.empty() || !rule.is_string()) fail("a note on a rule should follow that on its set");
+        try {
+            names_.back().rule = parse_set_rule(rule.get<std::string>(), names_.back().kind);
+        } catch (const InputError& error) {
+            fail(error.what());
+        }
     } else if (what == "edge") {
         if (names_.empty() || names_.back().kind != EntityKind::edge)
             fail("this edge follows no set of edges");
@@ -339,7 +349,9 @@ void AbaqusReader::make_sets() {
     std::map<std::pair<EntityKind, std::string>, std::string> names;
     for (const Named& named : names_) {
         names[{named.kind, named.key}] = named.name;
-        auto& members = draft_.set(named.name, named.kind).members;
+        MeshDraft::Set& set = draft_.set(named.name, named.kind);
+        set.rule = named.rule;
+        auto& members = set.members;
         for (const auto& edge : named.edges) {
             members.push_back(static_cast<Index>(draft_.edges.size()));
             draft_.edges.push_back(edge);

@@ -10,6 +10,7 @@
 #include "volmesh/io/abaqus_text.hh"
 #include "volmesh/io/formats.hh"
 #include "volmesh/io/output_file.hh"
+#include "volmesh/io/rule_text.hh"
 
 namespace maille::volmesh::io {
 
@@ -124,6 +125,8 @@ void AbaqusWriter::write_set(SetHandle set) {
     try {
         out_ << note_sign << "set " << kind_names[static_cast<std::size_t>(info.kind)] << ' ' << label << ' '
              << nlohmann::json(info.name).dump() << '\n';
+        if (const std::string rule = set_rule_text(mesh_, info); !rule.empty())
+            out_ << note_sign << "rule " << nlohmann::json(rule).dump() << '\n';
     } catch (const nlohmann::json::exception&) {
         throw InputError("the name of a set is no UTF-8 text: rename it");
     }

@@ -28,10 +28,10 @@ struct WriteOptions {
 /// tetrahedra.
 TetMesh read_mesh(const std::filesystem::path& path);
 
-/// Writes the mesh with its sets and, in .vtu and .msh, its properties of vertices and cells that are double,
-/// float, std::int32_t or Vector3d; in .vtu also those of edges, faces and the mesh (which may be a text),
-/// and the rules of all, but for functions of the user's. Deleted entities are left out. The same mesh gives
-/// the same bytes.
+/// Writes the mesh with its sets, their rules (but in .mfem and .e) and, in .vtu and .msh, its properties of
+/// vertices and cells that are double, float, std::int32_t or Vector3d, with their rules; in .vtu also
+/// properties of edges, faces and the mesh (which may be a text). Functions of the user's are in no file.
+/// Deleted entities are left out. The same mesh gives the same bytes.
 ///
 /// The formats of read_mesh and, for the boundary as a surface, .stl .obj .off .ply. The file is written
 /// beside its place and then put there, so that it is never seen half done. Throws InputError where the file

@@ -25,7 +25,16 @@ struct NamedReferences {
     std::string name;
     EntityKind kind;
     std::vector<long long> references;
+    std::optional<RuleDraft> rule{};
 };
+
+RuleDraft parse_rule(const InputFile& file, const std::string& text, EntityKind kind) {
+    try {
+        return parse_set_rule(text, kind);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", file.name(), error.what()));
+    }
+}
 
 std::vector<NamedReferences> parse_sidecar(const InputFile& file, const MeshDraft& draft) {
     std::vector<NamedReferences> sets;
@@ -36,8 +45,10 @@ std::vector<NamedReferences> parse_sidecar(const InputFile& file, const MeshDraf
         for (const auto& set : json.at("sets")) {
             const auto kind = std::ranges::find(kind_names, set.at("kind").get<std::string>());
             if (kind == kind_names.end()) throw InputError(file.name() + ": has a set of an unknown kind");
-            sets.push_back(
-                {set.at("name"), static_cast<EntityKind>(kind - kind_names.begin()), set.at("references")});
+            NamedReferences& named = sets.emplace_back();
+            named = {set.at("name"), static_cast<EntityKind>(kind - kind_names.begin()),
+                     set.at("references")};
+            if (set.contains("rule")) named.rule = parse_rule(file, set.at("rule"), named.kind);
         }
     } catch (const nlohmann::json::exception& error) {
         throw InputError(fmt::format("{}: {}", file.name(), error.what()));
@@ -61,6 +72,7 @@ void ReferenceWriter::commit() {
             if (std::ranges::count(mesh_.sets_of(combinations[i]), SetHandle(s)) > 0)
                 references.push_back(i + 1);
         sets.push_back({{"name", info.name}, {"kind", kind_names[kind]}, {"references", references}});
+        if (const std::string rule = set_rule_text(mesh_, info); !rule.empty()) sets.back()["rule"] = rule;
     }
     const ordered_json json{{"vertices", mesh_.n_vertices()}, {"cells", mesh_.n_cells()}, {"sets", sets}};
     try {
@@ -78,6 +90,7 @@ void ReferenceReader::make_sets(MeshDraft& draft, const Path& mesh_path) const {
         const InputFile file(sidecar);
         for (const NamedReferences& named : parse_sidecar(file, draft)) {
             MeshDraft::Set& set = draft.set(named.name, named.kind);
+            set.rule = named.rule;
             for (long long reference : named.references) {
                 const auto members = members_.find({named.kind, reference});
                 if (members == members_.end()) continue;
