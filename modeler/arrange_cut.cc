@@ -248,7 +248,8 @@ class PlaneCutter {
     std::unordered_map<std::uint64_t, std::vector<Rim>> rims_;
     Triangulation triangulation_;
     Triangulation::Vertex_handle latest_{};
-    std::vector<std::vector<std::pair<Face, int>>> borders_;  ///< of the parts: constrained sides of triangles
+    std::vector<std::vector<std::pair<Face, int>>>
+        borders_;  ///< of the parts: constrained sides of triangles
     std::unordered_map<std::uint32_t, Triangulation::Vertex_handle> vertices_;
 };
 

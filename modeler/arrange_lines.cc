@@ -126,8 +126,8 @@ void FlatLines::meet(Line& a, Line& b) {
         }
     if (touches) return;
 
-    const auto crossing = CGAL::intersection(Exact::Line_2(flat(a.from), flat(a.to)),
-                                             Exact::Line_2(flat(b.from), flat(b.to)));
+    const auto crossing =
+        CGAL::intersection(Exact::Line_2(flat(a.from), flat(a.to)), Exact::Line_2(flat(b.from), flat(b.to)));
     const auto* place = crossing ? boost::get<Exact::Point_2>(&*crossing) : nullptr;
     if (place == nullptr) throw std::logic_error("lines that cross have no point in common");
     const std::uint32_t point = registry_.add(projection_.lift(*place, plane_));

@@ -112,7 +112,8 @@ class GapFinder {
 
     static std::size_t side(const Triangle& triangle, Index a, Index b) {
         for (std::size_t i = 0; i < 2; ++i)
-            if (const auto& v = triangle.vertices; (v[i] == a || v[i] == b) && (v[i + 1] == a || v[i + 1] == b))
+            if (const auto& v = triangle.vertices;
+                (v[i] == a || v[i] == b) && (v[i + 1] == a || v[i + 1] == b))
                 return i;
         return 2;
     }
@@ -180,9 +181,9 @@ class GapFinder {
     }
 
     const Net& net_;
-    std::vector<std::vector<Index>> curves_;      // the other ends of the feature edges at each vertex
-    std::vector<std::array<bool, 3>> at_curve_;   // which sides of each triangle are feature edges
-    std::vector<Index> alive_;                    // the triangles in the tree
+    std::vector<std::vector<Index>> curves_;     // the other ends of the feature edges at each vertex
+    std::vector<std::array<bool, 3>> at_curve_;  // which sides of each triangle are feature edges
+    std::vector<Index> alive_;                   // the triangles in the tree
     modeler::detail::BoxTree boxes_;
     std::vector<Index> nearby_;
     std::vector<double> ways_;

@@ -7,6 +7,9 @@
 namespace maille::volmesh {
 namespace {
 
+/// Times the model's size: what differs by less is equally far.
+constexpr double same_distance = 1e-9;
+
 /// What a projector doesn't find is infinitely far.
 double distance(const Projector& projector, std::uint32_t surface, const Point& p) {
     const auto nearest = projector.project({&surface, 1}, p);
@@ -35,7 +38,7 @@ Surfaces FaceSurfaces::operator()(HalffaceHandle hf) {
     Surfaces surfaces;
     for (const SetHandle set : sets_with_surfaces(mesh_.combination(hf))) {
         const Namesakes& namesakes = of_set_[set.idx()];
-        add(surfaces, {namesakes.size() == 1 ? namesakes.front() : nearest(namesakes, hf)});
+        add(surfaces, {namesakes.size() == 1 ? namesakes.front() : surface_among(namesakes, hf)});
     }
     return surfaces;
 }
@@ -51,10 +54,34 @@ const std::vector<SetHandle>& FaceSurfaces::sets_with_surfaces(CombinationId id)
     return *sets;
 }
 
+std::uint32_t FaceSurfaces::surface_among(const Namesakes& surfaces, HalffaceHandle hf) {
+    const auto vertices = mesh_.halfface_vertices(hf);
+    std::array<Point, 3> corners;
+    Surfaces candidates;
+    for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = mesh_.point(vertices[k]);
+        if (vertices[k].idx() < met_.size()) add(candidates, met_[vertices[k].idx()]);
+    }
+    for (const std::uint32_t candidate : candidates)
+        if (std::ranges::binary_search(surfaces, candidate) && lies_on(candidate, corners)) return candidate;
+    const std::uint32_t found = nearest(surfaces, corners);
+    for (const VertexHandle v : vertices) {
+        if (v.idx() >= met_.size()) met_.resize(v.idx() + 1);
+        add(met_[v.idx()], Surfaces(1, found));
+    }
+    return found;
+}
+
+/// Whether no other surface could be nearer.
+bool FaceSurfaces::lies_on(std::uint32_t surface, const std::array<Point, 3>& corners) const {
+    const double equal = same_distance * projector_->model_size;
+    double sum = distance(*projector_, surface, (corners[0] + corners[1] + corners[2]) / 3);
+    for (std::size_t k = 0; k < 3 && sum <= equal; ++k) sum += distance(*projector_, surface, corners[k]);
+    return sum <= equal;
+}
+
 /// Of several equally near, as coincident faces are, the first.
-std::uint32_t FaceSurfaces::nearest(const Namesakes& surfaces, HalffaceHandle hf) const {
-    const auto v = mesh_.halfface_vertices(hf);
-    const std::array<Point, 3> corners{mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2])};
+std::uint32_t FaceSurfaces::nearest(const Namesakes& surfaces, const std::array<Point, 3>& corners) const {
     const Point centroid = (corners[0] + corners[1] + corners[2]) / 3;
     double reach = 0;
     for (const Point& p : corners) reach = std::max(reach, (p - centroid).norm());
@@ -64,7 +91,7 @@ std::uint32_t FaceSurfaces::nearest(const Namesakes& surfaces, HalffaceHandle hf
     // Distances change by no more than the way gone: surfaces much farther from the centroid are farther from
     // all.
     const double limit = *std::ranges::min_element(distances) + 2 * reach;
-    const double equal = 1e-9 * projector_->model_size;
+    const double equal = same_distance * projector_->model_size;
     std::uint32_t best = surfaces.front();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < surfaces.size(); ++i) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <boost/container/small_vector.hpp>
@@ -27,7 +29,8 @@ class FaceSurfaces {
     /// edited, but for new sets.
     FaceSurfaces(const TetMesh& mesh, const Projector* projector);
 
-    /// Whatever the projector throws passes through. Cost: a look-up, but for surfaces that share a name.
+    /// Whatever the projector throws passes through. Cost: a look-up; where surfaces share a name, a few
+    /// projections, but as many as there are such surfaces for a face on none that was met at its vertices.
     Surfaces operator()(HalffaceHandle hf);
 
   private:
@@ -35,12 +38,17 @@ class FaceSurfaces {
     using Namesakes = std::vector<std::uint32_t>;
 
     const std::vector<SetHandle>& sets_with_surfaces(CombinationId id);
-    std::uint32_t nearest(const Namesakes& surfaces, HalffaceHandle hf) const;
+    std::uint32_t surface_among(const Namesakes& surfaces, HalffaceHandle hf);
+    std::uint32_t nearest(const Namesakes& surfaces, const std::array<Point, 3>& corners) const;
+    bool lies_on(std::uint32_t surface, const std::array<Point, 3>& corners) const;
 
     const TetMesh& mesh_;
     const Projector* projector_;
     std::vector<Namesakes> of_set_;
     std::vector<std::optional<std::vector<SetHandle>>> of_combination_;  ///< filled as they are met
+    /// Those found for faces at each vertex: where hundreds share a name, the next face is mostly on one of
+    /// them too.
+    std::vector<Surfaces> met_;
 };
 
 }  // namespace maille::volmesh
