@@ -1,6 +1,7 @@
 #include "modeler/arrange.hh"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 
@@ -90,8 +91,8 @@ void mark_whole_facets(Arrangement& arrangement, std::span<const ClosedSurface> 
     }
 }
 
-/// Whether the facets around each region match at every edge.
-bool is_closed(const FacetComplex& complex) {
+/// A facet at whose edges those around one of its regions do not match, if there is one.
+std::optional<std::uint32_t> open_facet(const FacetComplex& complex) {
     std::map<std::pair<Region, std::uint64_t>, int> balance;
     for (const Facet& f : complex.facets)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -100,7 +101,63 @@ bool is_closed(const FacetComplex& complex) {
             balance[{f.back, edge_key(a, b)}] += sense;
             balance[{f.front, edge_key(a, b)}] -= sense;
         }
-    return std::ranges::all_of(balance, [](const auto& entry) { return entry.second == 0; });
+    for (std::uint32_t i = 0; i < complex.facets.size(); ++i) {
+        const Facet& f = complex.facets[i];
+        for (std::size_t k = 0; k < 3; ++k)
+            for (const Region r : {f.front, f.back})
+                if (balance.at({r, edge_key(f.vertices[k], f.vertices[(k + 1) % 3])}) != 0) return i;
+    }
+    return std::nullopt;
+}
+
+bool is_closed(const FacetComplex& complex) {
+    return !open_facet(complex);
+}
+
+/// Tells the primitives whose surfaces, or whose regions, the facets are.
+[[noreturn]] void fail_at(const Arrangement& arrangement, std::span<const std::uint32_t> facets,
+                          const char* problem) {
+    std::vector<std::uint32_t> primitives;
+    for (const auto f : facets) primitives.push_back(arrangement.parents[f].primitive);
+    std::ranges::sort(primitives);
+    primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
+    const Facet& first = arrangement.complex.facets[facets[0]];
+    throw ArrangeError(problem, std::move(primitives), arrangement.complex.points[first.vertices[0]]);
+}
+
+Arrangement arrange_once(std::span<const ClosedSurface> primitives, const CsgTree& tree, double weld_distance,
+                         int max_repairs) {
+    Scene fine = gather(primitives);
+    weld(fine, weld_distance);
+    if (fine.complex.facets.empty()) return {};
+    const CoarseScene coarse = coarsen(fine, weld_distance);
+    const Scene& scene = coarse.scene;
+    const std::vector<Pair> pairs = pairs_to_intersect(scene.complex, weld_distance);
+    Arrangement result =
+        arrange_pairs(scene, positions_on_planes(scene.complex, pairs, weld_distance), pairs, tree);
+    for (int round = 0;; ++round) {
+        weld(result, weld_distance);
+        if (const auto open = open_facet(result.complex))
+            fail_at(
+                result, std::array{*open},
+                "cannot be cut where they meet: the regions between them are not closed; move or turn one "
+                "of them a little");
+        const auto crossing = pairs_to_repair(result.complex);
+        if (!crossing) {
+            Arrangement restored = restore(result, fine, coarse, weld_distance);
+            if (is_closed(restored.complex) && !find_self_intersection(restored.complex))
+                result = std::move(restored);
+            mark_whole_facets(result, primitives);
+            return result;
+        }
+        if (round == max_repairs)
+            fail_at(
+                result, std::array{crossing->front().first, crossing->front().second},
+                "come so near to each other that they cannot be told apart in double precision; move them "
+                "apart or make them coincide");
+        result = arrange_pairs(result, positions_as_given(result.complex), *crossing,
+                               tree_of_regions(result.complex));
+    }
 }
 
 void check_tree(const CsgTree& tree, std::size_t n_primitives) {
@@ -112,40 +169,25 @@ void check_tree(const CsgTree& tree, std::size_t n_primitives) {
 
 }  // namespace
 
+ArrangeError::ArrangeError(std::string problem, std::vector<std::uint32_t> primitives,
+                           const Eigen::Vector3d& place)
+    : InputError(fmt::format("the surfaces of primitives {} near ({:.9g}, {:.9g}, {:.9g}) {}",
+                             fmt::join(primitives, " and "), place.x(), place.y(), place.z(), problem)),
+      problem_(std::move(problem)),
+      primitives_(std::move(primitives)),
+      place_(place) {}
+
 Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tree,
                     const ArrangeOptions& options) {
     check_tree(tree, primitives.size());
-    Scene fine = gather(primitives);
-    const double weld_distance = tolerance(fine.complex, options.weld);
-    weld(fine, weld_distance);
-    if (fine.complex.facets.empty()) return {};
-    const CoarseScene coarse = coarsen(fine, weld_distance);
-    const Scene& scene = coarse.scene;
-    const std::vector<Pair> pairs = pairs_to_intersect(scene.complex, weld_distance);
-    Arrangement result =
-        arrange_pairs(scene, positions_on_planes(scene.complex, pairs, weld_distance), pairs, tree);
-    for (int round = 0; round <= options.max_repairs; ++round) {
-        weld(result, weld_distance);
-        if (!is_closed(result.complex))
-            throw InputError(
-                "the surfaces of the model could not be cut where they meet: the regions between them are "
-                "not "
-                "closed; move or turn a primitive a little");
-        const auto crossing = pairs_to_repair(result.complex);
-        if (!crossing) {
-            Arrangement restored = restore(result, fine, coarse, weld_distance);
-            if (is_closed(restored.complex) && !find_self_intersection(restored.complex))
-                result = std::move(restored);
-            mark_whole_facets(result, primitives);
-            return result;
+    const double weld_distance = tolerance(gather(primitives).complex, options.weld);
+    std::optional<ArrangeError> first;
+    for (const double times : {1.0, 10.0, 100.0}) try {
+            return arrange_once(primitives, tree, times * weld_distance, options.max_repairs);
+        } catch (const ArrangeError& error) {
+            if (!first) first = error;
         }
-        result = arrange_pairs(result, positions_as_given(result.complex), *crossing,
-                               tree_of_regions(result.complex));
-    }
-    throw InputError(
-        "the surfaces of the model come so near to each other that they cannot be told apart in double "
-        "precision; "
-        "move them apart or make them coincide");
+    throw ArrangeError(*first);
 }
 
 }  // namespace maille::modeler

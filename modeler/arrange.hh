@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "modeler/csg_tree.hh"
 #include "modeler/facet_complex.hh"
+#include "volmesh/error.hh"
 
 namespace maille::modeler {
 
@@ -33,9 +35,27 @@ struct Arrangement {
     std::vector<FacetParent> parents;  ///< one for each facet
 };
 
+/// Surfaces that could not be arranged.
+class ArrangeError : public InputError {
+  public:
+    /// `problem` goes on from the names of the primitives: "cannot be cut where they meet".
+    ArrangeError(std::string problem, std::vector<std::uint32_t> primitives, const Eigen::Vector3d& place);
+
+    const std::string& problem() const { return problem_; }
+    /// Those that meet at the place, rising.
+    const std::vector<std::uint32_t>& primitives() const { return primitives_; }
+    const Eigen::Vector3d& place() const { return place_; }
+
+  private:
+    std::string problem_;
+    std::vector<std::uint32_t> primitives_;
+    Eigen::Vector3d place_;
+};
+
 struct ArrangeOptions {
     /// Points nearer than this, and points nearer than this to a plane of triangles, are made to coincide;
-    /// relative to the diagonal of the scene.
+    /// relative to the diagonal of the scene. Where that leaves surfaces too near to each other, ten times as
+    /// much is tried, and a hundred times.
     double weld = 1e-9;
     /// How often the surface is arranged again when the rounding of its points made it cross itself.
     int max_repairs = 8;
@@ -53,8 +73,8 @@ struct ArrangeOptions {
 /// Where surfaces of several primitives coincide, the facet has the surface of a primitive that owns one of
 /// its sides (the earliest), or else of the earliest primitive.
 ///
-/// Throws InputError for an index out of range, a point that is not finite, a surface that is not closed,
-/// when the regions found do not close, or when no rounding free of self-intersections is found.
+/// Throws InputError for an index out of range, a point that is not finite or a surface that is not closed;
+/// ArrangeError when the regions found do not close, or when no rounding free of self-intersections is found.
 Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tree,
                     const ArrangeOptions& options = {});
 

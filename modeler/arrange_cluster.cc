@@ -153,7 +153,9 @@ Subdivision subdivide(const FacetComplex& complex, const ExactPositions& positio
     }
     for (auto& facets : finder.clusters()) {
         const auto number = static_cast<std::uint32_t>(result.clusters.size());
-        PlaneCut cut = cut_plane(complex, positions, contacts, facets, finder.dissolved(), registry);
+        PlaneCut cut = guarded(complex, facets, [&] {
+            return cut_plane(complex, positions, contacts, facets, finder.dissolved(), registry);
+        });
         for (const PlaneCut::Part& part : cut.parts) {
             covers.clear();
             for (const auto& [facet, side] : part.facets) add_covers(covers, complex, facet, side);

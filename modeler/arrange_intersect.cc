@@ -1,6 +1,7 @@
 #include "modeler/arrange_intersect.hh"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <optional>
 #include <unordered_map>
@@ -238,7 +239,7 @@ std::vector<bool> degenerate_facets(const FacetComplex& complex, const ExactPosi
 Contacts intersect(const FacetComplex& complex, const ExactPositions& positions, std::span<const Pair> pairs,
                    PointRegistry& registry) {
     Intersector intersector(complex, positions, registry);
-    for (const auto& [i, j] : pairs) intersector.intersect(i, j);
+    for (const auto& [i, j] : pairs) guarded(complex, std::array{i, j}, [&] { intersector.intersect(i, j); });
     return intersector.take();
 }
 

@@ -1,6 +1,7 @@
 #include "modeler/arrange_label.hh"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -169,7 +170,8 @@ std::vector<Sides> label_sheets(const Subdivision& subdivision, const FacetCompl
     for (const Piece& piece : subdivision.pieces) {
         const auto patch = patches.find(piece.sheet);
         if (done[patch]) continue;
-        sides[patch] = labeller.sides_of(piece);
+        const auto facet = subdivision.covers_of(subdivision.sheets[piece.sheet]).front().facet;
+        sides[patch] = guarded(scene, std::array{facet}, [&] { return labeller.sides_of(piece); });
         done[patch] = true;
     }
     for (std::uint32_t s = 0; s < sides.size(); ++s) sides[s] = sides[patches.find(s)];

@@ -110,6 +110,18 @@ Eigen::AlignedBox3d bounding_box(const FacetComplex& complex) {
 
 }  // namespace
 
+void fail(const FacetComplex& complex, std::span<const std::uint32_t> facets, const std::string& problem) {
+    std::vector<std::uint32_t> primitives;
+    for (const auto f : facets)
+        for (const Region r : {complex.facets[f].front, complex.facets[f].back})
+            if (r != outside) primitives.push_back(static_cast<std::uint32_t>(r));
+    std::ranges::sort(primitives);
+    primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
+    const auto first_line = problem.substr(0, problem.find('\n'));
+    throw ArrangeError(first_line, std::move(primitives),
+                       complex.points[complex.facets[facets[0]].vertices[0]]);
+}
+
 Scene gather(std::span<const ClosedSurface> primitives) {
     Scene scene;
     for (std::size_t i = 0; i < primitives.size(); ++i) {

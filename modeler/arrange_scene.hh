@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
+#include <new>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "modeler/arrange.hh"
@@ -25,6 +28,24 @@ double diagonal(const FacetComplex& complex);
 /// The distance below which places count as one: `relative` to the diagonal, but not finer than what the
 /// coordinates can tell apart.
 double tolerance(const FacetComplex& complex, double relative);
+
+/// Throws an ArrangeError that names the primitives of the facets and the place of the first of them.
+[[noreturn]] void fail(const FacetComplex& complex, std::span<const std::uint32_t> facets,
+                       const std::string& problem);
+
+/// Calls f. Where it comes upon something that must not happen, it fails at the facets.
+template <class F>
+auto guarded(const FacetComplex& complex, std::span<const std::uint32_t> facets, const F& f) {
+    try {
+        return f();
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail(complex, facets, std::string("cannot be cut where they meet: ") + error.what());
+    }
+}
 
 /// The key of an edge, whichever way it runs.
 constexpr std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {

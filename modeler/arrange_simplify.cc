@@ -114,8 +114,10 @@ Arrangement simplify(const Subdivision& subdivision, const std::vector<Sides>& s
         if (features.outlines()[c].empty()) continue;
         const Cluster& cluster = subdivision.clusters[c];
         const auto unchanged = facets_by_corners(cluster, scene);
-        for (const auto& [corners, group] :
-             fill(features.outlines()[c], features.points()[c], cluster, registry)) {
+        const auto filled = guarded(scene.complex, cluster.facets, [&] {
+            return fill(features.outlines()[c], features.points()[c], cluster, registry);
+        });
+        for (const auto& [corners, group] : filled) {
             auto sorted = corners;
             std::ranges::sort(sorted);
             const auto at = unchanged.find(sorted);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <new>
 #include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -49,6 +52,9 @@ class Merger {
         verify(merged);
         return merged;
     }
+
+    /// Of the operands, for messages.
+    const std::string& names() const { return options_.name; }
 
   private:
     /// The kept cells' other faces lie on no surface of the model, and don't move.
@@ -102,7 +108,15 @@ class Merger {
 FacetComplex arranged_surfaces(std::span<const Operand> operands, const CsgTree& tree) {
     std::vector<ClosedSurface> surfaces;
     for (const Operand& operand : operands) surfaces.push_back(operand.surface);
-    return arrange(surfaces, tree).complex;
+    try {
+        return arrange(surfaces, tree).complex;
+    } catch (const ArrangeError& error) {
+        std::vector<std::string> names;
+        for (const std::uint32_t i : error.primitives()) names.push_back(operands[i].name);
+        const Eigen::Vector3d& p = error.place();
+        throw InputError(fmt::format("the surfaces of {} near ({:.9g}, {:.9g}, {:.9g}) {}",
+                                     fmt::join(names, " and "), p.x(), p.y(), p.z(), error.problem()));
+    }
 }
 
 }  // namespace
@@ -117,11 +131,17 @@ Merged merge_operands(std::span<const Operand> operands, const CsgTree& tree, co
         if (way.keep_cells && !settings.keep_cells) continue;
         try {
             return merger.merge(interface, way);
-        } catch (const InputError& error) {
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception& error) {
             warnings.push_back(fmt::format("{} failed: {}", way.words, error.what()));
         }
     }
-    return merger.merge(interface, last_way);
+    try {
+        return merger.merge(interface, last_way);
+    } catch (const std::logic_error& error) {
+        throw InputError(fmt::format("{} cannot be meshed: {}", merger.names(), error.what()));
+    }
 }
 
 }  // namespace maille::modeler

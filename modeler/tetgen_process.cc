@@ -153,13 +153,13 @@ std::string error_words(int number) {
     }
 }
 
+bool is_at_time_limit(int status) {
+    return WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL);
+}
+
 /// Why the process is no good, or nothing where it ended as it should.
 std::string reason(int status) {
-    if (WIFSIGNALED(status)) {
-        const int signal = WTERMSIG(status);
-        if (signal == SIGXCPU || signal == SIGKILL) return "TetGen was ended at its time limit";
-        return fmt::format("TetGen crashed ({})", strsignal(signal));
-    }
+    if (WIFSIGNALED(status)) return fmt::format("TetGen crashed ({})", strsignal(WTERMSIG(status)));
     const int code = WEXITSTATUS(status);
     if (code > tetgen_error_status) return "TetGen " + error_words(code - tetgen_error_status);
     return code == 0 ? "" : fmt::format("maille-tetgen ended with status {}", code);
@@ -208,8 +208,10 @@ Answer run(const Request& request) {
     const auto bytes = read_until(answer_end.number(), deadline);
     const auto status = bytes ? child.wait_until(deadline) : std::nullopt;
     if (!status)
-        throw Failure(fmt::format("TetGen gave no answer within {:.3g} seconds{}", seconds.count(),
+        throw TimeOut(fmt::format("TetGen gave no answer within {:.3g} seconds{}", seconds.count(),
                                   last_words(log.number())));
+    if (is_at_time_limit(*status))
+        throw TimeOut(fmt::format("TetGen was ended at its time limit{}", last_words(log.number())));
     if (const std::string words = reason(*status); !words.empty())
         throw Failure(words + last_words(log.number()));
 

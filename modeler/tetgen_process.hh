@@ -13,6 +13,12 @@ class Failure : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// One run of TetGen came to no end within its time.
+class TimeOut : public Failure {
+  public:
+    using Failure::Failure;
+};
+
 /// The worker program: `MAILLE_TETGEN` of the environment if set; else the first of: beside the running
 /// program, in
 /// ../libexec/maille from there, where this library was built, where it was installed.

@@ -51,7 +51,7 @@ double processor_time(const FacetComplex& complex, std::span<const double> sizes
     double cells = 10.0 * static_cast<double>(complex.facets.size());
     const std::vector<double> volumes = tetgen::region_volumes(complex);
     for (std::size_t r = 0; r < volumes.size(); ++r) cells += 3 * volumes[r] / volume_of_size(sizes[r]);
-    return 20 + 2e-4 * cells;
+    return 10 + 2e-4 * cells;
 }
 
 std::vector<Eigen::Vector3d> jittered(std::vector<Eigen::Vector3d> points, double relative) {
@@ -147,7 +147,7 @@ ComplexMesh tetrahedralize(const FacetComplex& complex, std::span<const double> 
                            const TetrahedralizeOptions& options, std::vector<std::string>* warnings) {
     // TetGen crashes on nothing.
     if (complex.facets.empty()) return {};
-    const double time_limit = processor_time(complex, sizes, options);
+    double time_limit = processor_time(complex, sizes, options);
     const bool may_split = std::ranges::none_of(complex.facets, &Facet::frozen);
     std::string reasons;
     for (const Rung& rung : ladder) {
@@ -155,6 +155,8 @@ ComplexMesh tetrahedralize(const FacetComplex& complex, std::span<const double> 
         try {
             return attempt(complex, sizes, time_limit, rung);
         } catch (const tetgen::Failure& failure) {
+            // What hangs once often hangs again: it is not waited for as long.
+            if (dynamic_cast<const tetgen::TimeOut*>(&failure) != nullptr) time_limit /= 3;
             const std::string told =
                 fmt::format("meshing {} {}: {}", options.name, rung.words, failure.what());
             if (warnings != nullptr) warnings->push_back(told);

@@ -15,7 +15,8 @@
 namespace maille::modeler {
 
 struct TetrahedralizeOptions {
-    /// Seconds of processor time that one run of TetGen may take; 0: by the expected number of cells.
+    /// Seconds of processor time that one run of TetGen may take, a third of it after each that took longer;
+    /// 0: by the expected number of cells.
     double time_limit = 0;
     /// What is meshed, for messages: "cube1".
     std::string name = "the solid";

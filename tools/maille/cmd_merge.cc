@@ -38,7 +38,7 @@ void run(const MergeCommandOptions& options) {
                                              {.operation = Operation::leaf, .primitive = 1}}};
     modeler::BuildReport report;
     const volmesh::TetMesh mesh = modeler::merge(meshes, tree, {}, &report);
-    for (const std::string& warning : report.warnings) progress.log(warning);
+    for (const std::string& warning : report.warnings) progress.warn(warning);
     summary.clock.end(Phase::merge);
 
     progress.step("writing");

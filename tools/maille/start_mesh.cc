@@ -42,7 +42,7 @@ volmesh::TetMesh build(const modeler::Model& model, double size, int threads, Pr
         threads > 0 ? static_cast<unsigned>(threads) : std::max(1U, std::thread::hardware_concurrency());
     modeler::BuildReport report;
     volmesh::TetMesh mesh = modeler::build(model, options, &report);
-    for (const std::string& warning : report.warnings) progress.log(warning);
+    for (const std::string& warning : report.warnings) progress.warn(warning);
     summary.clock.add(Phase::primitives, {report.primitives.cpu_seconds, report.primitives.wall_seconds});
     summary.clock.add(Phase::merge, {report.merge.cpu_seconds, report.merge.wall_seconds});
     summary.clock.skip();
