@@ -63,18 +63,15 @@ Eigen::AlignedBox3d box_of(const Corners& corners) {
 
 bool meets_a_neighbour(const Net& net, const std::vector<PlacedTriangle>& added, const Change& change) {
     std::vector<Index> nearby;
-    std::vector<Eigen::AlignedBox3d> boxes;
-    for (const PlacedTriangle& triangle : added) {
-        net.grid().collect(triangle.corners, nearby);
-        boxes.push_back(box_of(triangle.corners));
-    }
-    std::ranges::sort(nearby);
-    nearby.erase(std::ranges::unique(nearby).begin(), nearby.end());
-    for (const Index t : nearby) {
-        const Eigen::AlignedBox3d box = box_of(net.corners(t));
-        for (std::size_t i = 0; i < added.size(); ++i) {
-            if (!box.intersects(boxes[i]) || in_one_plane(net.patch(change.added[i]), net.patch(t))) continue;
-            if (std::ranges::find(change.removed, t) != change.removed.end()) break;
+    for (std::size_t i = 0; i < added.size(); ++i) {
+        nearby.clear();
+        net.grid().collect(added[i].corners, nearby);
+        const Eigen::AlignedBox3d box = box_of(added[i].corners);
+        for (const Index t : nearby) {
+            if (!box.intersects(box_of(net.corners(t))) ||
+                in_one_plane(net.patch(change.added[i]), net.patch(t)) ||
+                std::ranges::find(change.removed, t) != change.removed.end())
+                continue;
             if (collide(added[i], placed(net, t))) return true;
         }
     }

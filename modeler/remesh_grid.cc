@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace maille::modeler::remeshing {
 
@@ -68,20 +69,22 @@ void TriangleGrid::buckets_of(const Corners& corners, std::vector<std::size_t>& 
         else
             halve(c, a, b);
     }
-    sort_unique(buckets);
 }
 
 void TriangleGrid::insert(Index triangle, const Corners& corners) {
     if (buckets_.empty()) return;
     std::vector<std::size_t> buckets;
     buckets_of(corners, buckets);
+    sort_unique(buckets);
     for (const std::size_t bucket : buckets) buckets_[bucket].push_back(triangle);
+    if (triangle >= collected_.size()) collected_.resize(2 * std::size_t{triangle} + 1, 0);
 }
 
 void TriangleGrid::erase(Index triangle, const Corners& corners) {
     if (buckets_.empty()) return;
     std::vector<std::size_t> buckets;
     buckets_of(corners, buckets);
+    sort_unique(buckets);
     for (const std::size_t bucket : buckets) {
         auto& content = buckets_[bucket];
         *std::ranges::find(content, triangle) = content.back();
@@ -90,11 +93,14 @@ void TriangleGrid::erase(Index triangle, const Corners& corners) {
 }
 
 void TriangleGrid::collect(const std::vector<std::size_t>& buckets, std::vector<Index>& found) const {
+    ++calls_;
     for (const std::size_t bucket : buckets)
-        found.insert(found.end(), buckets_[bucket].begin(), buckets_[bucket].end());
+        for (const Index triangle : buckets_[bucket])
+            if (std::exchange(collected_[triangle], calls_) != calls_) found.push_back(triangle);
 }
 
 void TriangleGrid::collect(const Corners& corners, std::vector<Index>& found) const {
+    if (buckets_.empty()) return;
     std::vector<std::size_t> buckets;
     buckets_of(corners, buckets);
     collect(buckets, found);
@@ -111,7 +117,6 @@ void TriangleGrid::collect(const Eigen::AlignedBox3d& box, std::vector<Index>& f
         for (std::int64_t x = low[0]; x <= high[0]; ++x)
             for (std::int64_t y = low[1]; y <= high[1]; ++y)
                 for (std::int64_t z = low[2]; z <= high[2]; ++z) buckets.push_back(bucket_of({x, y, z}));
-        sort_unique(buckets);
     }
     collect(buckets, found);
 }

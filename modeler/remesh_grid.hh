@@ -16,6 +16,7 @@ using Corners = std::array<Vec3, 3>;
 
 /// Finds the triangles near a place: a hashed grid of cells that follows every change. A triangle is in all
 /// cells that it may touch, so that two triangles that meet share one. Until its first reset it stays empty.
+/// For one thread.
 class TriangleGrid {
   public:
     /// Empties the grid. `cell` is the width of a cell, about the length of an edge; `expected` the number of
@@ -26,8 +27,8 @@ class TriangleGrid {
     /// Takes out what was inserted with the same corners.
     void erase(Index triangle, const Corners& corners);
 
-    /// Appends the triangles of the cells that these corners, or this box, may touch: some of them several
-    /// times, and some that are further away.
+    /// Appends the triangles of the cells that these corners, or this box, may touch, each once; some are
+    /// further away.
     void collect(const Corners& corners, std::vector<Index>& found) const;
     void collect(const Eigen::AlignedBox3d& box, std::vector<Index>& found) const;
 
@@ -36,12 +37,15 @@ class TriangleGrid {
 
     Cell cell_of(const Vec3& p) const;
     std::size_t bucket_of(const Cell& cell) const;
-    /// The buckets that the triangle falls into, each once.
+    /// The buckets that the triangle falls into, some several times.
     void buckets_of(const Corners& corners, std::vector<std::size_t>& buckets) const;
     void collect(const std::vector<std::size_t>& buckets, std::vector<Index>& found) const;
 
     double cell_ = 1;
     std::vector<std::vector<Index>> buckets_;
+    mutable std::vector<std::uint64_t>
+        collected_;  ///< by triangle: the number of the last call that found it
+    mutable std::uint64_t calls_ = 0;
 };
 
 }  // namespace maille::modeler::remeshing
