@@ -1,7 +1,6 @@
 #include "modeler/geo_parser.hh"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
 
@@ -148,6 +147,8 @@ class GeoParser {
         name_leaves(*solid, name);
         apply(given, *solid);
         solids_[name] = solid;
+        if (const auto maxh = given.find("maxh"); maxh != given.end())
+            sizes_[name] = positive(maxh->second, "maxh");
     }
 
     std::string new_name() {
@@ -220,8 +221,11 @@ class GeoParser {
                 throw scanner_.error(material->second.at, "'material' needs a name");
             object.material = material->second.words[0];
         }
-        if (const auto maxh = given.find("maxh"); maxh != given.end())
-            object.size = positive(maxh->second, "maxh");
+        if (const auto size = sizes_.find(object.name); size != sizes_.end()) object.size = size->second;
+        if (const auto maxh = given.find("maxh"); maxh != given.end()) {
+            const double size = positive(maxh->second, "maxh");
+            object.size = object.size > 0 ? std::min(object.size, size) : size;
+        }
         if (std::ranges::find(objects_, object.name, &GeoObject::name) != objects_.end())
             throw scanner_.error(object.at, fmt::format("'{}' is a top-level object already", object.name));
         objects_.push_back(std::move(object));
@@ -350,6 +354,7 @@ class GeoParser {
     GeoScanner scanner_;
     GeoCurves curves_;
     std::map<std::string, GeoSolid, std::less<>> solids_;
+    std::map<std::string, double, std::less<>> sizes_;  ///< the maxh of solids
     std::vector<GeoObject> objects_;
     std::vector<Condition> conditions_;
     int depth_ = 0;

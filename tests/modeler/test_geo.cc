@@ -206,6 +206,15 @@ TEST_CASE("geo: names of primitives and surfaces") {
     CHECK(names.contains("s.orthobrick1/x-"));
     CHECK(names.contains("s.sphere2/surface"));
     CHECK(plain.primitives[0].name == "s");
+    // The smallest maxh of a solid, its parts and the object.
+    const Model sized = geo_model(
+        "solid a = sphere (0, 0, 0; 1) -maxh=0.3; solid s = a or sphere (1, 0, 0; 1) -maxh=0.5; tlo s "
+        "-maxh=0.4;");
+    REQUIRE(sized.primitives.size() == 3);
+    CHECK(sized.primitives[0].size == 0.3);
+    CHECK(sized.primitives[1].size == 0.4);
+    CHECK(sized.primitives[2].size == 0.4);
+    CHECK(sized.primitives[2].name == "s");
 }
 
 TEST_CASE("geo: errors name line and column") {

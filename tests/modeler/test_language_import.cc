@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "tests/modeler/language_checks.hh"
 
@@ -16,7 +17,8 @@ namespace {
 /// A folder for the files of one test.
 class Folder {
   public:
-    Folder() : path_(std::filesystem::temp_directory_path() / "maille_test_import") {
+    Folder()
+        : path_(std::filesystem::temp_directory_path() / fmt::format("maille_test_import_{}", getpid())) {
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_ / "parts");
     }
