@@ -90,13 +90,16 @@ class GapFinder {
             size = std::min(size, sizes_in_gap * gap_to_sheets(v, reach, size / sizes_in_gap));
             if (net_.kind(v) != VertexKind::face)
                 size = std::min(size, sizes_in_strip * gap_to_curves(v, reach, size / sizes_in_strip));
+            const double next = std::min(sizes_in_gap, sizes_in_strip) * reach;
+            // Where so much is near, edges are short anyway.
+            if (nearby_.size() > most_looked_at) return std::max(std::min(size, next), least);
             // Whatever is further away makes it no smaller.
-            if (reach >= furthest || size <= std::max(least, std::min(sizes_in_gap, sizes_in_strip) * reach))
-                return std::max(size, least);
+            if (reach >= furthest || size <= std::max(least, next)) return std::max(size, least);
         }
     }
 
   private:
+    static constexpr std::size_t most_looked_at = 1000;
     static constexpr double unreached = std::numeric_limits<double>::infinity();
 
     static std::vector<Eigen::AlignedBox3d> boxes_of(const Net& net, std::vector<Index>& alive) {
