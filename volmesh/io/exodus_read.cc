@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -42,6 +42,11 @@ class ExodusReader {
     }
     /// A count that the file can hold, at so many bytes each.
     std::size_t checked(std::int64_t n, std::size_t bytes_each, const char* what) const;
+    /// An array for n values, with the room that the library may take.
+    template <class T>
+    std::vector<T> array(std::size_t n) const {
+        return std::vector<T>(std::max(n, room_) + 1);
+    }
     Numbers ids(ex_entity_type type, std::size_t n, const char* what) const;
     std::string name(ex_entity_type type, std::int64_t id) const;
     bool has_mark() const;
@@ -51,12 +56,14 @@ class ExodusReader {
     void read_cells();
     void read_edges();
     void read_sets(ex_entity_type type, EntityKind kind, std::int64_t n_sets);
-    void add_members(MeshDraft::Set& set, const Numbers& entries, const Numbers& extras);
+    void add_members(MeshDraft::Set& set, std::span<const std::int64_t> entries,
+                     std::span<const std::int64_t> extras);
     void put_cells_in_order();
 
     Path path_;
     const ExodusLibrary& library_;
     std::size_t bytes_ = 0;
+    std::size_t room_ = 0;  ///< what the longest variable takes: the library fills as much of any array
     int file_ = -1;
     ex_init_params sizes_{};
     MeshDraft draft_;
@@ -67,7 +74,7 @@ ExodusReader::ExodusReader(const Path& path) : path_(path), library_(exodus_libr
     const InputFile file(path);
     const std::string_view head = file.text().substr(0, 4);
     if (!head.starts_with("CDF") && head != "\x89HDF") fail("is no Exodus file: neither NetCDF nor HDF5");
-    if (head.starts_with("CDF")) check_netcdf_header(file);
+    if (head.starts_with("CDF")) room_ = check_netcdf_header(file).longest_variable;
     constexpr std::size_t best_ratio = 1000;  // of HDF5's compression
     bytes_ = head.starts_with("CDF") ? file.text().size() : best_ratio * file.text().size();
     int word = sizeof(double);
@@ -89,13 +96,14 @@ std::size_t ExodusReader::checked(std::int64_t n, std::size_t bytes_each, const 
 }
 
 Numbers ExodusReader::ids(ex_entity_type type, std::size_t n, const char* what) const {
-    Numbers all(n);
+    auto all = array<std::int64_t>(n);
     if (n > 0) check(library_.get_ids(file_, type, all.data()), what);
+    all.resize(n);
     return all;
 }
 
 std::string ExodusReader::name(ex_entity_type type, std::int64_t id) const {
-    std::array<char, 257> text{};
+    std::array<char, longest_exodus_text + 1> text{};
     if (library_.get_name(file_, type, id, text.data()) < 0 || text[0] == '\0') return group_name(id);
     return text.data();
 }
@@ -114,8 +122,7 @@ bool ExodusReader::has_mark() const {
 
 void ExodusReader::read_points() {
     const std::size_t n = checked(sizes_.num_nodes, 12, "the number of nodes");
-    std::array<std::vector<double>, 3> x{std::vector<double>(n), std::vector<double>(n),
-                                         std::vector<double>(n)};
+    std::array<std::vector<double>, 3> x{array<double>(n), array<double>(n), array<double>(n)};
     if (n > 0) check(library_.get_coord(file_, x[0].data(), x[1].data(), x[2].data()), "coordinates");
     for (std::size_t i = 0; i < n; ++i) {
         const Point& p = draft_.points.emplace_back(x[0][i], x[1][i], x[2][i]);
@@ -126,7 +133,7 @@ void ExodusReader::read_points() {
 template <std::size_t N>
 void ExodusReader::read_block(ex_entity_type type, std::int64_t id,
                               std::vector<std::array<Index, N>>& elements) {
-    std::array<char, 257> shape{};
+    std::array<char, longest_exodus_text + 1> shape{};
     std::int64_t n_entries = 0;
     std::int64_t n_nodes = 0;
     std::int64_t n_edges = 0;
@@ -145,7 +152,7 @@ void ExodusReader::read_block(ex_entity_type type, std::int64_t id,
         fail(fmt::format("block {} has elements '{}', which cannot be read: only tetrahedra can", id,
                          shape.data()));
     const std::size_t n = checked(n_entries, 4 * N, "the number of a block's elements");
-    Numbers nodes(N * n);
+    auto nodes = array<std::int64_t>(N * n);
     check(library_.get_conn(file_, type, id, nodes.data(), nullptr, nullptr),
           "the nodes of a block's elements");
     for (std::size_t i = 0; i < n; ++i) {
@@ -180,7 +187,8 @@ void ExodusReader::read_edges() {
         read_block(EX_EDGE_BLOCK, id, draft_.edges);
 }
 
-void ExodusReader::add_members(MeshDraft::Set& set, const Numbers& entries, const Numbers& extras) {
+void ExodusReader::add_members(MeshDraft::Set& set, std::span<const std::int64_t> entries,
+                               std::span<const std::int64_t> extras) {
     const std::size_t n = set.kind == EntityKind::vertex ? draft_.points.size()
                           : set.kind == EntityKind::edge ? draft_.edges.size()
                                                          : draft_.cells.size();
@@ -204,17 +212,21 @@ void ExodusReader::add_members(MeshDraft::Set& set, const Numbers& entries, cons
 }
 
 void ExodusReader::read_sets(ex_entity_type type, EntityKind kind, std::int64_t n_sets) {
+    auto entries = array<std::int64_t>(0);
+    auto extras = array<std::int64_t>(0);
     for (std::int64_t id : ids(type, checked(n_sets, 4, "the number of sets"), "the sets")) {
         std::int64_t n_said = 0;
         std::int64_t n_factors = 0;
         check(library_.get_set_param(file_, type, id, &n_said, &n_factors), "the size of a set");
         const std::size_t n = checked(n_said, 4, "the number of a set's members");
-        Numbers entries(n);
-        Numbers extras(kind == EntityKind::face || kind == EntityKind::edge ? n : 0);
+        const bool has_extras = kind == EntityKind::face || kind == EntityKind::edge;
+        entries.resize(std::max(entries.size(), n));
+        extras.resize(std::max(extras.size(), n));
         if (n > 0)
-            check(library_.get_set(file_, type, id, entries.data(), extras.empty() ? nullptr : extras.data()),
+            check(library_.get_set(file_, type, id, entries.data(), has_extras ? extras.data() : nullptr),
                   "a set");
-        add_members(draft_.set(name(type, id), kind), entries, extras);
+        add_members(draft_.set(name(type, id), kind), std::span(entries).first(n),
+                    std::span(extras).first(n));
     }
 }
 
@@ -222,8 +234,9 @@ void ExodusReader::read_sets(ex_entity_type type, EntityKind kind, std::int64_t 
 void ExodusReader::put_cells_in_order() {
     const std::size_t n = draft_.cells.size();
     if (n == 0 || !has_mark()) return;
-    Numbers numbers(n);
+    auto numbers = array<std::int64_t>(n);
     check(library_.get_id_map(file_, EX_ELEM_MAP, numbers.data()), "the numbers of elements");
+    numbers.resize(n);
     std::vector<std::uint8_t> is_there(n, 0);
     for (std::int64_t number : numbers)
         if (number < 1 || number > static_cast<std::int64_t>(n) || is_there[number - 1]++ != 0)

@@ -1,5 +1,6 @@
 #include "volmesh/io/netcdf_header.hh"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -17,7 +18,7 @@ class NetcdfHeader {
   public:
     explicit NetcdfHeader(const InputFile& file) : file_(file), text_(file.text()) {}
 
-    void check();
+    NetcdfSizes check();
 
   private:
     [[noreturn]] void fail(const std::string& message) const {
@@ -27,7 +28,7 @@ class NetcdfHeader {
     /// A count or size: 8 bytes wide in CDF-5, else 4.
     std::uint64_t size() { return number(version_ == 5 ? 8 : 4); }
     void skip(std::uint64_t n_bytes);
-    void skip_name() { skip(size()); }
+    std::string_view name();
     /// How many entries the list has, each of at least that many bytes.
     std::uint64_t list(Tag tag, std::uint64_t bytes_each);
     std::uint64_t bytes_of_type();
@@ -41,6 +42,7 @@ class NetcdfHeader {
     int version_ = 0;
     std::uint64_t n_records_ = 0;
     std::vector<std::uint64_t> dimensions_;
+    NetcdfSizes sizes_;
 };
 
 std::uint64_t NetcdfHeader::number(std::size_t n_bytes) {
@@ -57,6 +59,13 @@ void NetcdfHeader::skip(std::uint64_t n_bytes) {
     const std::uint64_t padded = (n_bytes + 3) / 4 * 4;
     if (n_bytes > text_.size() || padded > text_.size() - at_) fail("the file ends within its header");
     at_ += padded;
+}
+
+std::string_view NetcdfHeader::name() {
+    const std::uint64_t n = size();
+    const std::size_t begin = at_;
+    skip(n);
+    return text_.substr(begin, n);
 }
 
 std::uint64_t NetcdfHeader::list(Tag tag, std::uint64_t bytes_each) {
@@ -78,8 +87,10 @@ std::uint64_t NetcdfHeader::bytes_of_type() {
 void NetcdfHeader::check_dimensions() {
     const std::uint64_t n = list(dimension, 8);
     for (std::uint64_t i = 0; i < n; ++i) {
-        skip_name();
+        const bool is_of_text = name().starts_with("len_");
         dimensions_.push_back(size());
+        if (is_of_text && dimensions_.back() > longest_exodus_text)
+            fail(fmt::format("texts of {} bytes are too long", dimensions_.back()));
         if (dimensions_.back() > text_.size())
             fail(
                 fmt::format("a dimension is said to be {}, more than the file can hold", dimensions_.back()));
@@ -89,16 +100,18 @@ void NetcdfHeader::check_dimensions() {
 void NetcdfHeader::skip_attributes() {
     const std::uint64_t n = list(attribute, 12);
     for (std::uint64_t i = 0; i < n; ++i) {
-        skip_name();
+        const std::string_view what = name();
         const std::uint64_t bytes_each = bytes_of_type();
         const std::uint64_t n_values = size();
         if (n_values > text_.size()) fail("an attribute has more values than the file can hold");
+        // The library has room for so much of a title.
+        if (n_values > (what == "title" ? 80 : longest_exodus_text)) fail("an attribute is too long");
         skip(n_values * bytes_each);
     }
 }
 
 void NetcdfHeader::check_variable() {
-    skip_name();
+    name();
     const std::uint64_t n_dimensions = size();
     if (n_dimensions > dimensions_.size()) fail("a variable has more dimensions than there are");
     std::uint64_t n_values = 1;
@@ -110,6 +123,7 @@ void NetcdfHeader::check_variable() {
         if (length != 0 && n_values > text_.size() / length) fail("a variable is larger than the file");
         n_values *= length;
     }
+    sizes_.longest_variable = std::max(sizes_.longest_variable, n_values);
     skip_attributes();
     const std::uint64_t n_bytes = n_values * bytes_of_type();
     size();  // the size as it is said, which may be wrong even in good files
@@ -118,7 +132,7 @@ void NetcdfHeader::check_variable() {
         fail(fmt::format("a variable of {} bytes from byte {} on is not in the file", n_bytes, begin));
 }
 
-void NetcdfHeader::check() {
+NetcdfSizes NetcdfHeader::check() {
     at_ = 3;  // "CDF"
     version_ = static_cast<int>(number(1));
     if (version_ != 1 && version_ != 2 && version_ != 5) fail(fmt::format("there is no CDF-{}", version_));
@@ -129,12 +143,13 @@ void NetcdfHeader::check() {
     skip_attributes();
     const std::uint64_t n = list(variable, 28);
     for (std::uint64_t i = 0; i < n; ++i) check_variable();
+    return sizes_;
 }
 
 }  // namespace
 
-void check_netcdf_header(const InputFile& file) {
-    NetcdfHeader(file).check();
+NetcdfSizes check_netcdf_header(const InputFile& file) {
+    return NetcdfHeader(file).check();
 }
 
 }  // namespace maille::volmesh::io
