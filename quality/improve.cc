@@ -46,7 +46,8 @@ ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmes
     ImproveResult result;
     Improver improver(mesh, std::move(shapes), options, projector, result);
     result.worst_before = improver.worst();
-    improver.raise_mean();
+    // What this leaves below good_enough the passes better.
+    improver.raise_mean(0.75 * options.good_enough);
     bool all_moves = false;
     for (int pass = 0; pass < options.max_passes; ++pass) {
         const std::size_t n_moves = improver.pass(all_moves);
@@ -54,6 +55,8 @@ ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmes
         if (n_moves == 0 && all_moves) break;
         all_moves = !all_moves && pass > 0;
     }
+    // They may cost some of the mean.
+    if (improver.mean_beta() < options.good_mean) improver.raise_mean(options.good_enough);
     result.worst_after = improver.worst();
     if (mesh.has_deleted()) mesh.garbage_collection();
     return result;

@@ -27,10 +27,12 @@ class Improver {
     /// tried, the worst first. Vertices are added and taken out only with `all_moves`. Returns the number of
     /// moves.
     std::size_t pass(bool all_moves);
-    /// Raises the mean of beta by sweeps over the mesh, if it is low.
-    void raise_mean();
+    /// Raises the mean of beta by sweeps over the mesh. No cell comes to be the mesh's worst; else cells may
+    /// get worse as far as `least_objective`.
+    void raise_mean(double least_objective);
 
-    /// The least objective of the mesh.
+    /// Of the mesh: the mean of beta, and the least objective.
+    double mean_beta() const;
     double worst() const;
 
   private:
@@ -56,7 +58,6 @@ class Improver {
                              const Freedom& freedom);
 
     // improver_mean.cc
-    double mean_beta() const;
     std::size_t slide_for_mean(double floor, const std::vector<std::uint8_t>& is_free);
 
     // improver_flips.cc

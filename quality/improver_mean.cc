@@ -18,10 +18,9 @@ double Improver::mean_beta() const {
     return n > 0 ? sum / static_cast<double>(n) : 1;
 }
 
-void Improver::raise_mean() {
+void Improver::raise_mean(double least_objective) {
     constexpr double little = 0.003;
-    // What this leaves below good_enough the passes better; but no cell comes to be the mesh's worst.
-    const double floor = std::max(worst(), 0.75 * options_.good_enough);
+    const double floor = std::max(worst(), least_objective);
     const std::vector<std::uint8_t> is_free = free_vertices(mesh_);
     double mean = mean_beta();
     for (int sweep = 0; sweep < options_.mean_sweeps; ++sweep) {

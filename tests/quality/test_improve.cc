@@ -333,14 +333,19 @@ TEST_CASE("no cell becomes longer than the size allows") {
     improve(mesh, {.good_enough = 0.6, .size = &size, .ratio = 1.5});
     CHECK(assess(mesh, &size)[Measure::phi].max <= std::max(before, 1.5));
 
-    TetMesh bisected = bisected_cube(5);
     const WantedSize graded = [](const Point& p) { return (0.1 + 0.2 * p.norm()) / 1.3; };
-    const double phi = assess(bisected, &graded)[Measure::phi].max;
-    TetMesh free = bisected;
-    improve(free, {.good_mean = 1});
-    improve(bisected, {.good_mean = 1, .size = &graded, .ratio = phi});
-    CHECK(assess(free, &graded)[Measure::phi].max > phi);
-    CHECK(assess(bisected, &graded)[Measure::phi].max <= phi);
+    int n_longer = 0;
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        CAPTURE(seed);
+        TetMesh bisected = bisected_cube(seed);
+        const double phi = assess(bisected, &graded)[Measure::phi].max;
+        TetMesh free = bisected;
+        improve(free, {.good_mean = 1});
+        n_longer += assess(free, &graded)[Measure::phi].max > phi;
+        improve(bisected, {.good_mean = 1, .size = &graded, .ratio = phi});
+        CHECK(assess(bisected, &graded)[Measure::phi].max <= phi);
+    }
+    CHECK(n_longer > 0);
 }
 
 TEST_CASE("the same mesh is bettered the same way") {
