@@ -256,3 +256,12 @@ TEST_CASE("Surfaces that cannot be used are refused") {
     unnumbered.surfaces.pop_back();
     CHECK_THROWS_AS(arrange(std::vector{unnumbered}, leaf(0)), InputError);
 }
+
+TEST_CASE("an arrangement that fails names the primitives and the place") {
+    const ArrangeError error("cannot be cut where they meet", {1, 4}, {0.5, -2, 1e6});
+    CHECK(std::string(error.what()) ==
+          "the surfaces of primitives 1 and 4 near (0.5, -2, 1000000) cannot be cut where they meet");
+    CHECK(error.primitives() == std::vector<std::uint32_t>{1, 4});
+    CHECK(error.place() == Vector3d(0.5, -2, 1e6));
+    CHECK(error.problem() == "cannot be cut where they meet");
+}
