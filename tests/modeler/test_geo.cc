@@ -76,7 +76,7 @@ Model geo_model(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("geo: planes make a cube; its faces are named by bc and bcname") {
+TEST_CASE("geo: planes make a cube, its faces are named by bc and bcname") {
     const auto mesh = check_volumes("cube", 0, 0.003, {{"main", 1 - 4 * pi / 3 * 0.027}}, 0.01);
     CHECK(volume_of_set(mesh, "air") == doctest::Approx(volmesh::volume(mesh)).epsilon(1e-12));
     CHECK(area_of_set(mesh, "inlet") == doctest::Approx(1).epsilon(1e-12));

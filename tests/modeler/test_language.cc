@@ -203,7 +203,7 @@ TEST_CASE("trees are as simple as the model") {
     CHECK(model.tree.primitive == 0);
 }
 
-TEST_CASE("primitives are named, numbered and of a material and size; the innermost wins") {
+TEST_CASE("primitives are named, numbered and of a material and size, the innermost wins") {
     CHECK(primitive_names("cube(1); translate([3,0,0]) sphere(1); cylinder();") ==
           Names{"cube1", "sphere2", "cylinder3"});
     CHECK(primitive_names("name(\"a\") { cube(1); name(\"b\") sphere(1); cube(2); }") ==

@@ -173,7 +173,7 @@ TEST_CASE("polyhedra with reversed faces are mended, those that do not close are
     CHECK(message(good + ",[3,7,4,0],[0,1,2,3]").starts_with("part.csg:1:1: polyhedron: "));
 }
 
-TEST_CASE("pieces of a polyhedron are turned outwards one by one; cavities stay") {
+TEST_CASE("pieces of a polyhedron are turned outwards one by one, cavities stay") {
     const auto box = [](double low, double high) {
         std::string text;
         for (int i = 0; i < 8; ++i)

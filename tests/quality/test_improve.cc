@@ -99,7 +99,7 @@ const ImproveOptions moves_only{
 
 }  // namespace
 
-TEST_CASE("smoothing raises the worst cells; the boundary stays where it was") {
+TEST_CASE("smoothing raises the worst cells, the boundary stays where it was") {
     constexpr unsigned seed = 17;
     CAPTURE(seed);
     TetMesh mesh = shaken_cube(6, false, seed);
