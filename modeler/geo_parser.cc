@@ -13,7 +13,7 @@ namespace maille::modeler {
 namespace {
 
 constexpr int most_copies = 10'000;
-constexpr int deepest_nesting = 1000;
+constexpr int deepest_nesting = 200;  // each level takes three calls
 
 /// What stands after `-name=`.
 struct Flag {

@@ -253,7 +253,7 @@ TEST_CASE("geo: errors name line and column") {
                          "part.geo:1:1: expected 'algebraic3d' but found 'solid'", InputError);
     std::string deep;
     for (int i = 0; i < 100000; ++i) deep += "(";
-    CHECK(geo_message("solid s = " + deep).ends_with("nested deeper than 1000 levels"));
+    CHECK(geo_message("solid s = " + deep).ends_with("nested deeper than 200 levels"));
 }
 
 TEST_CASE("geo: any cut of a good text is read or refused") {
