@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <span>
 #include <type_traits>
 #include <utility>
 
+#include "volmesh/memory.hh"
+
 namespace maille::volmesh {
 
-/// A long array of plain values that grows well: the system moves large ones by remapping their pages, so
-/// that nothing is copied and there are never two of them, and `grow` leaves new values unset. Otherwise as
-/// std::vector.
+/// A long array of plain values that grows well: large ones move by remapping their pages, so that nothing is
+/// copied and there are never two of them, and `grow` leaves new values unset. Otherwise as std::vector.
 template <class T>
 class Column {
-    static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= alignof(std::max_align_t));
+    static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= memory_alignment);
 
   public:
     using value_type = T;
@@ -28,7 +27,7 @@ class Column {
         swap(other);
         return *this;
     }
-    ~Column() { std::free(data_); }
+    ~Column() { release_memory(data_, capacity_ * sizeof(T)); }
 
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
@@ -70,9 +69,7 @@ class Column {
 
   private:
     void reserve(std::size_t n) {
-        void* moved = std::realloc(static_cast<void*>(data_), n * sizeof(T));
-        if (moved == nullptr) throw std::bad_alloc();
-        data_ = static_cast<T*>(moved);
+        data_ = static_cast<T*>(resized_memory(data_, capacity_ * sizeof(T), n * sizeof(T)));
         capacity_ = n;
     }
 

@@ -100,8 +100,8 @@ void TetMesh::append(const TetMesh& other) {
     append_marks(deleted_cells_, c0, other.deleted_cells_, other.n_cells());
     for (const Point& p : other.points_) points_.push_back(p);
     for (Index c : other.vertex_cells_) vertex_cells_.push_back(shifted(c, c0));
-    for (const auto& cell : other.cells_) cells_.push_back(shifted(cell, v0));
-    for (const auto& sides : other.neighbors_) neighbors_.push_back(shifted(sides, 4 * c0));
+    for (const Cell& cell : other.cells_)
+        cells_.push_back({shifted(cell.vertices, v0), shifted(cell.neighbors, 4 * c0)});
     n_boundary_ += other.n_boundary_;
     for (const auto& [v, fans] : other.vertex_fans_)
         for (Index c : fans) vertex_fans_[v + v0].push_back(c + c0);

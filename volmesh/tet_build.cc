@@ -40,7 +40,9 @@ TetMesh TetMesh::from_cells(std::vector<Point> points, std::vector<std::array<In
         }
     TetMesh mesh;
     mesh.points_.assign(std::exchange(points, {}));
-    mesh.cells_.assign(std::exchange(cells, {}));
+    mesh.cells_.grow(cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) mesh.cells_[c] = {cells[c], {none, none, none, none}};
+    cells = {};
     mesh.link_neighbors();
     mesh.find_vertex_cells();
     mesh.find_pinches();
@@ -55,7 +57,7 @@ void TetMesh::link_neighbors() {
         auto operator<=>(const Side&) const = default;
     };
     const auto sorted_face = [&](Index halfface) {
-        const auto& cell = cells_[halfface / 4];
+        const auto& cell = cells_[halfface / 4].vertices;
         const auto& local = tet::face_vertices[halfface % 4];
         std::array<Index, 3> v{cell[local[0]], cell[local[1]], cell[local[2]]};
         std::ranges::sort(v);
@@ -71,7 +73,6 @@ void TetMesh::link_neighbors() {
         sides[next[v[0]]++] = {v[1], v[2], hf};
     }
 
-    neighbors_.assign(cells_.size(), {none, none, none, none});
     n_boundary_ = 0;
     for (Index v = 0; v < n_vertices(); ++v) {
         const std::span bucket(sides.begin() + ends[v], sides.begin() + ends[v + 1]);
@@ -89,8 +90,8 @@ void TetMesh::link_neighbors() {
                                 bucket[i].highest));
             if (same - i == 2) {
                 const Index other = bucket[i + 1].halfface;
-                neighbors_[hf / 4][hf % 4] = other;
-                neighbors_[other / 4][other % 4] = hf;
+                cells_[hf / 4].neighbors[hf % 4] = other;
+                cells_[other / 4].neighbors[other % 4] = hf;
             } else {
                 ++n_boundary_;
             }
@@ -102,7 +103,7 @@ void TetMesh::link_neighbors() {
 void TetMesh::find_vertex_cells() {
     vertex_cells_.assign(points_.size(), none);
     for (Index c = n_cells(); c-- > 0;)
-        for (Index v : cells_[c]) vertex_cells_[v] = c;
+        for (Index v : cells_[c].vertices) vertex_cells_[v] = c;
 }
 
 void TetMesh::find_pinches() {
@@ -112,13 +113,13 @@ void TetMesh::find_pinches() {
     // Fans can only part at the boundary. A vertex is pinched where its first fan doesn't hold all its cells;
     // an edge where more than two boundary faces meet.
     std::vector<Index> n_cells_at(points_.size(), 0);
-    for (const auto& cell : cells_)
-        for (Index v : cell) ++n_cells_at[v];
+    for (const Cell& cell : cells_)
+        for (Index v : cell.vertices) ++n_cells_at[v];
     std::vector<std::uint8_t> on_boundary(points_.size(), 0);
     std::vector<std::uint64_t> boundary_edges;
     boundary_edges.reserve(3 * n_boundary_);
     for (Index hf = 0; hf < n_halffaces(); ++hf) {
-        if (neighbors_[hf / 4][hf % 4] != none || is_deleted(CellHandle(hf / 4))) continue;
+        if (cells_[hf / 4].neighbors[hf % 4] != none || is_deleted(CellHandle(hf / 4))) continue;
         const auto v = halfface_vertices(HalffaceHandle(hf));
         for (int i = 0; i < 3; ++i) {
             on_boundary[v[i].idx()] = 1;
@@ -139,11 +140,11 @@ void TetMesh::find_pinches() {
     if (pinched_vertices.empty() && pinched_edges.empty()) return;
 
     for (Index c = 0; c < n_cells(); ++c) {
-        for (Index v : cells_[c])
+        for (Index v : cells_[c].vertices)
             if (const auto at = pinched_vertices.find(v); at != pinched_vertices.end())
                 at->second.push_back(CellHandle(c));
         for (const auto& [i, j] : tet::edge_vertices)
-            if (const auto at = pinched_edges.find(edge_key(cells_[c][i], cells_[c][j]));
+            if (const auto at = pinched_edges.find(edge_key(cells_[c].vertices[i], cells_[c].vertices[j]));
                 at != pinched_edges.end())
                 at->second.push_back(CellHandle(c));
     }
@@ -228,10 +229,9 @@ CellHandle TetMesh::add_cell(VertexHandle v0, VertexHandle v1, VertexHandle v2, 
 
     const CellHandle c(n_cells());
     for (CellList& cells : cells_at) cells.push_back(c);
-    cells_.push_back({v0.idx(), v1.idx(), v2.idx(), v3.idx()});
-    neighbors_.push_back(opposite);
+    cells_.push_back({{v0.idx(), v1.idx(), v2.idx(), v3.idx()}, opposite});
     for (int f = 0; f < 4; ++f) {
-        if (opposite[f] != none) neighbors_[opposite[f] / 4][opposite[f] % 4] = halfface(c, f).idx();
+        if (opposite[f] != none) cells_[opposite[f] / 4].neighbors[opposite[f] % 4] = halfface(c, f).idx();
         n_boundary_ += opposite[f] == none ? 1 : -1;
     }
     if (!deleted_cells_.empty()) deleted_cells_.push_back(0);

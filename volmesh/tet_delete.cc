@@ -41,9 +41,9 @@ void TetMesh::delete_cell(CellHandle c) {
         cells_at[i].erase(std::ranges::find(cells_at[i], c));
     }
     forget_numbers(c);
-    for (Index& opposite : neighbors_[c.idx()]) {
+    for (Index& opposite : cells_[c.idx()].neighbors) {
         n_boundary_ += opposite == none ? -1 : 1;
-        if (opposite != none) neighbors_[opposite / 4][opposite % 4] = none;
+        if (opposite != none) cells_[opposite / 4].neighbors[opposite % 4] = none;
         opposite = none;
     }
     if (deleted_cells_.empty()) deleted_cells_.resize(cells_.size(), 0);
@@ -75,12 +75,11 @@ IndexMaps TetMesh::garbage_collection() {
     for (Index& c : vertex_cells_)
         if (c != none) c = cells.new_indices[c];
     cells.gather(cells_);
-    cells.gather(neighbors_);
     cells.gather(cell_rows_);
-    for (auto& cell : cells_)
-        for (Index& v : cell) v = vertices.new_indices[v];
-    for (auto& sides : neighbors_)
-        for (Index& hf : sides) move_halfface(hf);
+    for (Cell& cell : cells_) {
+        for (Index& v : cell.vertices) v = vertices.new_indices[v];
+        for (Index& hf : cell.neighbors) move_halfface(hf);
+    }
     deleted_cells_.clear();
     deleted_vertices_.clear();
 

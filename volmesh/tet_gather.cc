@@ -51,7 +51,7 @@ TetMesh TetMesh::taken(std::span<const VertexHandle> vertices, std::span<const C
     std::vector<std::array<Index, 4>> corners;
     corners.reserve(old_cells.size());
     for (Index c : old_cells) {
-        auto& cell = corners.emplace_back(cells_[c]);
+        auto& cell = corners.emplace_back(cells_[c].vertices);
         for (Index& v : cell) {
             if (new_vertices[v] == none)
                 throw std::invalid_argument(fmt::format("cell {} has vertex {}, which is not given", c, v));

@@ -11,19 +11,18 @@ namespace {
 // Turns round an edge from a cell, out through the face opposite the local vertex `pivot` first, until it
 // comes back or to the boundary. Whether it came back. Each face that it goes through has the vertex `shared`
 // besides the edge's ends.
-bool turn(const Column<std::array<std::uint32_t, 4>>& cells,
-          const Column<std::array<std::uint32_t, 4>>& neighbors, std::uint32_t start, int pivot,
-          int shared_local, CellList& ring) {
+template <class Cell>
+bool turn(const Column<Cell>& cells, std::uint32_t start, int pivot, int shared_local, CellList& ring) {
     std::uint32_t cell = start;
-    std::uint32_t shared = cells[start][shared_local];
+    std::uint32_t shared = cells[start].vertices[shared_local];
     while (true) {
-        const std::uint32_t next = neighbors[cell][pivot];
+        const std::uint32_t next = cells[cell].neighbors[pivot];
         if (next == TetMesh::none) return false;
         cell = next / 4;
         if (cell == start) return true;
         ring.push_back(CellHandle(cell));
         // In through the face opposite local vertex next % 4, out through that opposite the shared one.
-        const auto& v = cells[cell];
+        const auto& v = cells[cell].vertices;
         pivot = v[0] == shared ? 0 : v[1] == shared ? 1 : v[2] == shared ? 2 : 3;
         shared = v[next % 4];
     }
@@ -72,19 +71,20 @@ EntityRange<FaceHandle> TetMesh::boundary_faces() const {
 }
 
 std::array<VertexHandle, 3> TetMesh::halfface_vertices(HalffaceHandle hf) const {
-    const auto& v = cells_[hf.idx() / 4];
+    const auto& v = cells_[hf.idx() / 4].vertices;
     const auto& local = tet::face_vertices[hf.idx() % 4];
     return {VertexHandle(v[local[0]]), VertexHandle(v[local[1]]), VertexHandle(v[local[2]])};
 }
 
 bool TetMesh::is_boundary(CellHandle c) const {
-    return std::ranges::find(neighbors_[c.idx()], none) != neighbors_[c.idx()].end();
+    const auto& neighbors = cells_[c.idx()].neighbors;
+    return std::ranges::find(neighbors, none) != neighbors.end();
 }
 
 bool TetMesh::is_boundary(VertexHandle v) const {
     for (CellHandle c : vc_range(v))
         for (int f = 0; f < 4; ++f)
-            if (cells_[c.idx()][f] != v.idx() && is_boundary(halfface(c, f))) return true;
+            if (cells_[c.idx()].vertices[f] != v.idx() && is_boundary(halfface(c, f))) return true;
     return false;
 }
 
@@ -113,8 +113,9 @@ void TetMesh::visit_fan(Index start, Index vertex, const Visit& visit) const {
         const Index cell = found[i];
         visit(CellHandle(cell));
         for (int f = 0; f < 4; ++f) {
-            const Index other = neighbors_[cell][f];
-            if (cells_[cell][f] != vertex && other != none && is_new(other / 4)) found.push_back(other / 4);
+            const Index other = cells_[cell].neighbors[f];
+            if (cells_[cell].vertices[f] != vertex && other != none && is_new(other / 4))
+                found.push_back(other / 4);
         }
     }
 }
@@ -157,9 +158,9 @@ void TetMesh::append_ring(CellHandle c, int local_edge, CellList& ring) const {
     const auto [k, l] = tet::edge_vertices[tet::opposite_edge(local_edge)];
     const auto begin = static_cast<std::ptrdiff_t>(ring.size());
     ring.push_back(c);
-    if (turn(cells_, neighbors_, c.idx(), k, l, ring)) return;
+    if (turn(cells_, c.idx(), k, l, ring)) return;
     std::reverse(ring.begin() + begin, ring.end());
-    turn(cells_, neighbors_, c.idx(), l, k, ring);
+    turn(cells_, c.idx(), l, k, ring);
 }
 
 CellList TetMesh::cells_around(CellHandle c, int local_edge) const {

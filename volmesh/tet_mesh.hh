@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -92,10 +93,12 @@ class TetMesh : public TetNavigation {
 
     // ---- cells and half-faces
     std::array<VertexHandle, 4> cell_vertices(CellHandle c) const;
-    VertexHandle cell_vertex(CellHandle c, int local) const { return VertexHandle(cells_[c.idx()][local]); }
+    VertexHandle cell_vertex(CellHandle c, int local) const {
+        return VertexHandle(cells_[c.idx()].vertices[local]);
+    }
     /// The vertices of every cell, by cell index.
-    std::span<const std::array<Index, 4>> cell_vertex_indices() const {
-        return {cells_.data(), cells_.size()};
+    std::ranges::random_access_range auto cell_vertex_indices() const {
+        return std::views::transform(std::span<const Cell>(cells_.data(), cells_.size()), &Cell::vertices);
     }
     /// Local number of a vertex in a cell, -1 where it isn't one of the cell's.
     int local_vertex(CellHandle c, VertexHandle v) const;
@@ -109,7 +112,7 @@ class TetMesh : public TetNavigation {
     static int local_face(HalffaceHandle hf) { return static_cast<int>(hf.idx() % 4); }
     /// The same face seen from the cell on its other side; invalid on the boundary.
     HalffaceHandle opposite_halfface_handle(HalffaceHandle hf) const {
-        return HalffaceHandle(neighbors_[hf.idx() / 4][hf.idx() % 4]);
+        return HalffaceHandle(cells_[hf.idx() / 4].neighbors[hf.idx() % 4]);
     }
     /// Counter-clockwise seen from outside the cell.
     std::array<VertexHandle, 3> halfface_vertices(HalffaceHandle hf) const;
@@ -346,6 +349,11 @@ class TetMesh : public TetNavigation {
     std::span<const SetHandle> sets_of(CombinationId id) const { return sets_.combination(id); }
 
   private:
+    /// What a step from cell to cell reads and writes, so that it takes one line of the cache.
+    struct alignas(32) Cell {
+        std::array<Index, 4> vertices;
+        std::array<Index, 4> neighbors;  ///< the opposite half-face, by local face
+    };
     struct EdgeNumbers {
         std::vector<std::array<Index, 6>> of_cell;
         std::vector<Index> place;  ///< 8 * cell + local edge of one cell; `none` where the edge is gone
@@ -416,9 +424,8 @@ class TetMesh : public TetNavigation {
     void apply_custom_rules(const Split& split);
 
     Column<Point> points_;
-    Column<std::array<Index, 4>> cells_;
-    Column<std::array<Index, 4>> neighbors_;  ///< the opposite half-face, by cell and local face
-    Column<Index> vertex_cells_;              ///< a cell of each vertex
+    Column<Cell> cells_;
+    Column<Index> vertex_cells_;  ///< a cell of each vertex
     Index n_boundary_ = 0;
 
     /// Where the boundary isn't manifold: a cell of each further fan of a vertex, and of each fan of an edge
@@ -440,18 +447,18 @@ class TetMesh : public TetNavigation {
 };
 
 inline std::array<Point, 4> TetMesh::cell_points(CellHandle c) const {
-    const auto& v = cells_[c.idx()];
+    const auto& v = cells_[c.idx()].vertices;
     return {points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]};
 }
 
 inline std::array<VertexHandle, 4> TetMesh::cell_vertices(CellHandle c) const {
-    const auto& v = cells_[c.idx()];
+    const auto& v = cells_[c.idx()].vertices;
     return {VertexHandle(v[0]), VertexHandle(v[1]), VertexHandle(v[2]), VertexHandle(v[3])};
 }
 
 inline int TetMesh::local_vertex(CellHandle c, VertexHandle v) const {
     for (int i = 0; i < 4; ++i)
-        if (cells_[c.idx()][i] == v.idx()) return i;
+        if (cells_[c.idx()].vertices[i] == v.idx()) return i;
     return -1;
 }
 
@@ -463,7 +470,7 @@ inline int TetMesh::local_edge(CellHandle c, VertexHandle a, VertexHandle b) con
 
 inline CellList TetMesh::cc_range(CellHandle c) const {
     CellList cells;
-    for (Index other : neighbors_[c.idx()])
+    for (Index other : cells_[c.idx()].neighbors)
         if (other != none) cells.push_back(CellHandle(other / 4));
     return cells;
 }

@@ -35,7 +35,7 @@ void TetMesh::request_faces() const {
         if (is_deleted(HalffaceHandle(hf)) || of_cell[hf / 4][hf % 4] != none) continue;
         const auto number = static_cast<Index>(halfface.size());
         of_cell[hf / 4][hf % 4] = number;
-        if (const Index other = neighbors_[hf / 4][hf % 4]; other != none)
+        if (const Index other = cells_[hf / 4].neighbors[hf % 4]; other != none)
             of_cell[other / 4][other % 4] = number;
         halfface.push_back(hf);
     }
@@ -87,7 +87,7 @@ std::pair<CellHandle, int> TetMesh::edge_place(EdgeHandle e) const {
 std::array<VertexHandle, 2> TetMesh::edge_vertices(EdgeHandle e) const {
     const auto [c, local] = edge_place(e);
     const auto [i, j] = tet::edge_vertices[local];
-    const auto [low, high] = std::minmax(cells_[c.idx()][i], cells_[c.idx()][j]);
+    const auto [low, high] = std::minmax(cells_[c.idx()].vertices[i], cells_[c.idx()].vertices[j]);
     return {VertexHandle(low), VertexHandle(high)};
 }
 
@@ -176,7 +176,8 @@ void TetMesh::forget_numbers(CellHandle c) {
                     place = 8 * around.idx() + local_edge(around, cell_vertex(c, i), cell_vertex(c, j));
         }
     if (faces_)
-        for (int f = 0; f < 4; ++f) faces_->halfface[faces_->of_cell[c.idx()][f]] = neighbors_[c.idx()][f];
+        for (int f = 0; f < 4; ++f)
+            faces_->halfface[faces_->of_cell[c.idx()][f]] = cells_[c.idx()].neighbors[f];
 }
 
 }  // namespace maille::volmesh

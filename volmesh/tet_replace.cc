@@ -11,7 +11,7 @@ namespace maille::volmesh {
 namespace {
 
 using Index = TetMesh::Index;
-using Cell = std::array<Index, 4>;
+using Corners = std::array<Index, 4>;
 
 FaceKey sorted(FaceKey v) {
     if (v[0] > v[1]) std::swap(v[0], v[1]);
@@ -20,7 +20,7 @@ FaceKey sorted(FaceKey v) {
     return v;
 }
 
-FaceKey face_key(const Cell& cell, int face) {
+FaceKey face_key(const Corners& cell, int face) {
     const auto& local = tet::face_vertices[face];
     return sorted({cell[local[0]], cell[local[1]], cell[local[2]]});
 }
@@ -50,13 +50,13 @@ class KeysAfter {
         for (CellHandle c : change.old_cells) {
             const int heir = mesh.local_vertex(c, change.heir);
             if (heir < 0) continue;
-            const Cell& cell = mesh.cell_vertex_indices()[c.idx()];
+            const Corners& cell = mesh.cell_vertex_indices()[c.idx()];
             vanishing_.push_back(face_key(cell, heir));
             ring_.insert(ring_.end(), cell.begin(), cell.end());
         }
     }
 
-    FaceKey face(const Cell& cell, int f) const {
+    FaceKey face(const Corners& cell, int f) const {
         FaceKey key = face_key(cell, f);
         const auto gone = std::ranges::find(key, gone_);
         if (gone == key.end() || std::ranges::find(key, heir_) != key.end() ||
@@ -66,7 +66,7 @@ class KeysAfter {
         return sorted(key);
     }
 
-    std::uint64_t edge(const Cell& cell, int e) const {
+    std::uint64_t edge(const Corners& cell, int e) const {
         auto [i, j] = tet::edge_vertices[e];
         if (cell[i] != gone_) std::swap(i, j);
         const bool is_renamed = cell[i] == gone_ && std::ranges::find(ring_, cell[j]) == ring_.end();
@@ -160,7 +160,7 @@ bool renumber(const CavityParts<Part>& before, const CavityParts<Part>& born, co
 void TetMesh::replace_cells(const Retriangulation& change) {
     Cavity cavity = look_into(change);
     relink(change, cavity);
-    const auto& cells = cells_;
+    const auto cells = cell_vertex_indices();
     bool has_vanished = change.old_cells.size() > change.new_cells.size() || change.gone.is_valid();
     if (edges_) {
         edges_->of_cell.resize(cells_.size());
@@ -200,8 +200,8 @@ Cavity TetMesh::look_into(const Retriangulation& change) const {
     Cavity cavity;
     const KeysAfter keys(*this, change);
     for (CellHandle c : change.old_cells) {
-        const Cell& cell = cells_[c.idx()];
-        const auto& neighbors = neighbors_[c.idx()];
+        const Corners& cell = cells_[c.idx()].vertices;
+        const auto& neighbors = cells_[c.idx()].neighbors;
         for (int f = 0; f < 4; ++f)
             if (neighbors[f] != none && !is_among(change.old_cells, CellHandle(neighbors[f] / 4)))
                 cavity.outside.push_back({face_key(cell, f), neighbors[f]});
@@ -235,7 +235,7 @@ Cavity TetMesh::look_into(const Retriangulation& change) const {
 void TetMesh::look_for_hinges(const Retriangulation& change, Cavity& cavity) const {
     bool has_fans = false;
     for (CellHandle c : change.old_cells) {
-        const Cell& cell = cells_[c.idx()];
+        const Corners& cell = cells_[c.idx()].vertices;
         for (Index v : cell) {
             has_fans |= vertex_fans_.contains(v);
             if (std::ranges::find(cavity.hinges, VertexHandle(v)) == cavity.hinges.end())
@@ -250,7 +250,7 @@ void TetMesh::look_for_hinges(const Retriangulation& change, Cavity& cavity) con
 
 void TetMesh::relink(const Retriangulation& change, Cavity& cavity) {
     for (CellHandle c : change.old_cells)
-        for (Index& neighbor : neighbors_[c.idx()]) {
+        for (Index& neighbor : cells_[c.idx()].neighbors) {
             if (neighbor == none) --n_boundary_;
             neighbor = none;
         }
@@ -258,26 +258,25 @@ void TetMesh::relink(const Retriangulation& change, Cavity& cavity) {
         const Index slot = r < change.old_cells.size() ? change.old_cells[r].idx() : n_cells();
         cavity.slots.push_back(slot);
         if (slot == n_cells()) {
-            cells_.push_back({});
-            neighbors_.push_back({none, none, none, none});
+            cells_.push_back({{}, {none, none, none, none}});
             if (!deleted_cells_.empty()) deleted_cells_.push_back(0);
             if (!cell_rows_.empty()) cell_rows_.push_back(0);
         }
         for (int i = 0; i < 4; ++i) {
             const Index v = change.new_cells[r].vertices[i].idx();
-            cells_[slot][i] = v;
+            cells_[slot].vertices[i] = v;
             vertex_cells_[v] = slot;
         }
     }
 
     boost::container::small_vector<Cavity::Outside, 48> open;  // new half-faces that wait for the other one
     const auto link = [&](Index one, Index other) {
-        neighbors_[one / 4][one % 4] = other;
-        neighbors_[other / 4][other % 4] = one;
+        cells_[one / 4].neighbors[one % 4] = other;
+        cells_[other / 4].neighbors[other % 4] = one;
     };
     for (Index slot : cavity.slots)
         for (int f = 0; f < 4; ++f) {
-            const FaceKey key = face_key(cells_[slot], f);
+            const FaceKey key = face_key(cells_[slot].vertices, f);
             const auto at = find_part(open, key);
             if (at == open.end()) {
                 open.push_back({key, 4 * slot + f});
@@ -305,7 +304,7 @@ void TetMesh::give_rows(const Retriangulation& change, const Cavity& cavity) {
             cell_rows_[cavity.slots[r]] = old;
             continue;
         }
-        const Cell& cell = cells_[cavity.slots[r]];
+        const Corners& cell = cells_[cavity.slots[r]].vertices;
         const auto passed = [&](CombinationId id) { return change.divides ? sets_.inherited(id) : id; };
         NamedSets::Row row;
         row.cell = passed(sets_.row(old).cell);

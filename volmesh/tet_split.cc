@@ -137,7 +137,6 @@ void TetMesh::grow(std::size_t n_vertices, std::size_t n_cells) {
     if (!deleted_vertices_.empty()) deleted_vertices_.resize(n_vertices, 0);
     if (!vertex_combinations_.empty()) vertex_combinations_.grow(n_vertices);
     cells_.grow(n_cells);
-    neighbors_.grow(n_cells);
     if (!deleted_cells_.empty()) deleted_cells_.resize(n_cells, 0);
     if (!cell_rows_.empty()) cell_rows_.grow(n_cells);
     properties_of(EntityKind::vertex).for_each([&](BaseProperty& property) { property.resize(n_vertices); });
@@ -154,28 +153,29 @@ void TetMesh::split_cells(const Split& split) {
         const Index c = split.ring[r].idx();
         const Index d = split.new_cell(r);
         const auto [a, b, k, l] = split.locals[r];
-        cells_[d] = cells_[c];
-        cells_[d][a] = split.m.idx();
-        cells_[c][b] = split.m.idx();
+        Cell& with_a = cells_[c];
+        Cell with_b = with_a;
+        with_b.vertices[a] = split.m.idx();
+        with_a.vertices[b] = split.m.idx();
         // Only the ring that has a vertex's cell changes it, so others read what can't be one of theirs.
         if (cell_of_b.load(std::memory_order_relaxed) == c) cell_of_b.store(d, std::memory_order_relaxed);
 
-        std::array<Index, 4> neighbors = neighbors_[c];
         for (int side : {k, l}) {
-            if (neighbors[side] == none) {
+            Index& neighbor = with_b.neighbors[side];
+            if (neighbor == none) {
                 ++n_halved_boundary_faces;
                 continue;
             }
             // The neighbour is the cell before or after in the ring, and is split alike.
             const std::size_t after = r + 1 < n ? r + 1 : 0;
             const std::size_t before = r > 0 ? r - 1 : n - 1;
-            const std::size_t at = split.ring[after].idx() == neighbors[side] / 4 ? after : before;
-            assert(split.ring[at].idx() == neighbors[side] / 4);
-            neighbors[side] = 4 * split.new_cell(at) + neighbors[side] % 4;
+            const std::size_t at = split.ring[after].idx() == neighbor / 4 ? after : before;
+            assert(split.ring[at].idx() == neighbor / 4);
+            neighbor = 4 * split.new_cell(at) + neighbor % 4;
         }
-        neighbors[b] = 4 * c + a;
-        neighbors_[d] = neighbors;
-        neighbors_[c][a] = 4 * d + b;
+        with_b.neighbors[b] = 4 * c + a;
+        with_a.neighbors[a] = 4 * d + b;
+        cells_[d] = with_b;
     }
     if (n_halved_boundary_faces > 0)
         std::atomic_ref(n_boundary_).fetch_add(n_halved_boundary_faces, std::memory_order_relaxed);
@@ -186,23 +186,24 @@ void TetMesh::split_cells(const Split& split) {
 /// is now its new child's.
 void TetMesh::link_to_others(const Split& split, Index first_vertex) {
     const auto is_split = [&](Index cell) {
-        return std::ranges::any_of(cells_[cell], [&](Index v) { return v >= first_vertex; });
+        return std::ranges::any_of(cells_[cell].vertices, [&](Index v) { return v >= first_vertex; });
     };
     const auto moved = [&](Index halfface) {
-        const auto cell = halfface / 4, side = halfface % 4;
-        return cells_[cell][side] >= first_vertex ? halfface : neighbors_[cell][side] / 4 * 4 + side;
+        const Index side = halfface % 4;
+        const Cell& cell = cells_[halfface / 4];
+        return cell.vertices[side] >= first_vertex ? halfface : cell.neighbors[side] / 4 * 4 + side;
     };
     for (std::size_t r = 0; r < split.ring.size(); ++r) {
         const auto& local = split.locals[r];
         const Index kept = 4 * split.ring[r].idx() + local.b;
         const Index given = 4 * split.new_cell(r) + local.a;
         for (const Index own : {kept, given}) {
-            Index& opposite = neighbors_[own / 4][own % 4];
+            Index& opposite = cells_[own / 4].neighbors[own % 4];
             if (opposite == none) continue;
             if (is_split(opposite / 4))
                 opposite = moved(opposite);
             else if (own == given)
-                neighbors_[opposite / 4][opposite % 4] = given;
+                cells_[opposite / 4].neighbors[opposite % 4] = given;
         }
     }
 }
@@ -220,7 +221,7 @@ void TetMesh::split_edge_numbers(const Split& split) {
         of_cell.push_back(of_cell[c]);
         of_cell[d][local.edge()] = half_of_b;
         for (int side : {local.k, local.l}) {
-            const Index spoke = spokes(cells_[c][side]);
+            const Index spoke = spokes(cells_[c].vertices[side]);
             const int at_a = tet::edge_between[local.a][side];
             const int at_b = tet::edge_between[local.b][side];
             place[of_cell[d][at_b]] = 8 * d + at_b;
@@ -248,7 +249,7 @@ void TetMesh::split_face_numbers(const Split& split) {
         const auto& local = split.locals[r];
         of_cell.push_back(of_cell[c]);
         for (int side : {local.k, local.l}) {
-            const Index half = halves(cells_[c][side == local.k ? local.l : local.k]);
+            const Index half = halves(cells_[c].vertices[side == local.k ? local.l : local.k]);
             if (half == before + wholes.size()) wholes.push_back(of_cell[c][side]);
             halfface.resize(std::max<std::size_t>(halfface.size(), halves.end()));
             of_cell[d][side] = half;
@@ -275,7 +276,7 @@ void TetMesh::split_pinches(const Split& split) {
         for (Index& first : at_b->second) first = split.child_with_b(first);
     for (std::size_t r = 0; r < split.ring.size(); ++r)
         for (int side : {split.locals[r].k, split.locals[r].l}) {
-            const Index other = cells_[split.ring[r].idx()][side];
+            const Index other = cells_[split.ring[r].idx()].vertices[side];
             if (const auto fans = edge_fans_.find(edge_key(split.b.idx(), other)); fans != edge_fans_.end())
                 for (Index& first : fans->second) first = split.child_with_b(first);
         }

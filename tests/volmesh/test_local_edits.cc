@@ -364,8 +364,8 @@ TEST_CASE("edits next to where a boundary is pinched keep its fans") {
     // Two cubes that touch along an edge.
     const TetMesh cube = kuhn_cube(2);
     std::vector<Point> points(cube.points().begin(), cube.points().end());
-    std::vector<std::array<TetMesh::Index, 4>> cells(cube.cell_vertex_indices().begin(),
-                                                     cube.cell_vertex_indices().end());
+    const auto cube_cells = cube.cell_vertex_indices();
+    std::vector<std::array<TetMesh::Index, 4>> cells(cube_cells.begin(), cube_cells.end());
     const auto n = static_cast<std::uint32_t>(cells.size());
     std::vector<std::uint32_t> image;
     for (const Point& p : cube.points()) {
