@@ -9,7 +9,9 @@
 #include "modeler/build.hh"
 #include "modeler/shapes.hh"
 #include "tests/modeler/arrange_checks.hh"
+#include "tests/modeler/name_checks.hh"
 #include "volmesh/error.hh"
+#include "volmesh/measure.hh"
 #include "volmesh/validate.hh"
 
 namespace {
@@ -144,6 +146,52 @@ void check_places(const TetMesh& mesh, const Model& model, Generator& generator)
     }
 }
 
+bool is_flat(const Primitive& primitive) {
+    return std::ranges::all_of(primitive.shape->faces(), &PrimitiveFace::planar);
+}
+
+/// Between what the volume must lie, by one random point in each box of a grid. Those just within a curved
+/// surface may be cut off by the flat faces that stand for it; four standard deviations are put on top.
+std::array<double, 2> volume_bounds(const Model& model, unsigned seed) {
+    constexpr int n = 60;
+    Eigen::AlignedBox3d around;
+    for (const Primitive& primitive : model.primitives) around.extend(primitive.shape->bounding_box());
+    const Vector3d step = around.sizes() / n;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> part(0, 1);
+    double inside = 0, doubtful = 0, near_surfaces = 0;
+    std::vector<double> depth(model.primitives.size());
+    for (int i = 0; i < n * n * n; ++i) {
+        const Vector3d at(i % n + part(random), i / n % n + part(random), i / (n * n) + part(random));
+        const Vector3d p = around.min() + step.cwiseProduct(at);
+        bool is_near = false, is_doubtful = false;
+        for (std::size_t k = 0; k < depth.size(); ++k) {
+            depth[k] = -model.primitives[k].shape->implicit(p);
+            is_near = is_near || std::abs(depth[k]) < 1.5 * step.norm();
+            is_doubtful =
+                is_doubtful || (depth[k] > 0 && depth[k] < clearance && !is_flat(model.primitives[k]));
+        }
+        near_surfaces += is_near;
+        doubtful += is_doubtful;
+        inside += !is_doubtful && owner(model.tree, [&](std::uint32_t k) { return depth[k] >= 0; });
+    }
+    const double error = 2 * std::sqrt(near_surfaces);
+    return {(inside - error) * step.prod(), (inside + doubtful + error) * step.prod()};
+}
+
+void check_volume(const TetMesh& mesh, const Model& model, unsigned seed) {
+    const auto [low, high] = volume_bounds(model, seed);
+    CHECK(volmesh::volume(mesh) >= low);
+    CHECK(volmesh::volume(mesh) <= high);
+}
+
+void check_surfaces(const TetMesh& mesh, const Model& model) {
+    const auto figures = test::check_names(mesh, model);
+    CHECK(figures.nameless == 0);
+    CHECK(figures.ambiguous == 0);
+    CHECK(figures.farthest < clearance);
+}
+
 }  // namespace
 
 // MAILLE_TREES tells how many, MAILLE_TREES_SEED where to begin.
@@ -167,6 +215,8 @@ TEST_CASE("random trees of solids are filled as the tree says, everywhere") {
         CHECK(volmesh::validate(mesh).ok());
         check_cells(mesh, model);
         check_places(mesh, model, generator);
+        check_volume(mesh, model, static_cast<unsigned>(seed));
+        check_surfaces(mesh, model);
     }
     CHECK(refused <= count / 200);
 }
