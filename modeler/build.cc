@@ -12,6 +12,7 @@
 #include "modeler/parallel.hh"
 #include "modeler/phase_timer.hh"
 #include "modeler/projector_touch.hh"
+#include "modeler/shared_surface.hh"
 #include "modeler/tessellate.hh"
 #include "modeler/tetrahedralize.hh"
 #include "volmesh/error.hh"
@@ -62,11 +63,13 @@ std::vector<std::uint32_t> first_surfaces(const Model& model) {
 /// Primitives that differ in place only are meshed once.
 std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& options, BuildReport& report) {
     const std::size_t n = model.primitives.size();
-    const std::vector<double> sizes = sizes_of_primitives(model, options);
+    std::vector<double> sizes = sizes_of_primitives(model, options);
+    const auto shared = find_shared_surfaces(model.primitives, sizes, options.chord_tolerance);
     const std::vector<std::uint32_t> first = first_surfaces(model);
     std::vector<std::uint8_t> may_own(n);
     mark_owners(model.tree, may_own);
-    const std::vector<std::size_t> original = first_alike(model.primitives, sizes, may_own);
+    const std::vector<std::size_t> original = first_alike(model.primitives, sizes, shared);
+    for (std::size_t i = 0; i < n; ++i) may_own[original[i]] |= may_own[i];
     std::vector<Operand> operands(n);
     std::vector<std::vector<std::string>> warnings_of(n);
     parallel_for(n, options.threads, [&](std::size_t i) {
@@ -76,7 +79,7 @@ std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& opt
         operand.name = primitive.name;
         operand.size = sizes[i];
         const volmesh::TriMesh surface = tessellate(
-            primitive, TessellateOptions{.size = sizes[i], .chord_tolerance = options.chord_tolerance});
+            primitive, {.size = sizes[i], .chord_tolerance = options.chord_tolerance, .shared = shared[i]});
         operand.surface = closed_surface(surface, first[i]);
         if (!may_own[i] || !options.keep_cells) return;
         try {
@@ -93,6 +96,7 @@ std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& opt
         if (j == i) continue;
         operands[i] =
             moved_operand(operands[j], model.primitives[j], model.primitives[i], first[j], first[i]);
+        if (!may_own[i]) operands[i].mesh = {};
         ++report.moved_primitives;
     }
     for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(report.warnings));

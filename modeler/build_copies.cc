@@ -16,28 +16,44 @@ namespace {
 
 using Way = std::optional<Eigen::Vector3d>;
 
-Way between_maps(const Eigen::Affine3d& from, const Eigen::Affine3d& to) {
-    if (from.linear() != to.linear()) return std::nullopt;
+/// What of the standard solid comes to lie where the other map puts it: the rotation or mirror between the
+/// maps leaves the solid as it is.
+template <class Keeps>
+Way between_maps(const Eigen::Affine3d& from, const Eigen::Affine3d& to, const Keeps& keeps) {
+    if (from.linear() != to.linear() && !keeps(Eigen::Matrix3d(from.linear().inverse() * to.linear())))
+        return std::nullopt;
     return to.translation() - from.translation();
 }
 
+bool is_orthogonal(const Eigen::Matrix3d& m) {
+    return (m.transpose() * m - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-12;
+}
+
+/// Whether it maps the z axis on itself, and turns or mirrors about it.
+bool is_about_axis(const Eigen::Matrix3d& m) {
+    return is_orthogonal(m) && std::abs(m(2, 2) - 1) < 1e-12;
+}
+
 Way between(const Ellipsoid& from, const Ellipsoid& to) {
-    return between_maps(from.map(), to.map());
+    return between_maps(from.map(), to.map(), is_orthogonal);
 }
 
 Way between(const Torus& from, const Torus& to) {
     if (from.major() != to.major() || from.minor() != to.minor()) return std::nullopt;
-    return between_maps(from.map(), to.map());
+    return between_maps(from.map(), to.map(), [](Eigen::Matrix3d m) {
+        m.col(2) *= m(2, 2) < 0 ? -1 : 1;
+        return is_about_axis(m);
+    });
 }
 
 Way between(const Cone& from, const Cone& to) {
     if (from.radius(0) != to.radius(0) || from.radius(1) != to.radius(1)) return std::nullopt;
-    return between_maps(from.map(), to.map());
+    return between_maps(from.map(), to.map(), is_about_axis);
 }
 
 Way between(const Turned& from, const Turned& to) {
     if (from.span() != to.span() || from.profile() != to.profile()) return std::nullopt;
-    return between_maps(from.map(), to.map());
+    return between_maps(from.map(), to.map(), [](const Eigen::Matrix3d&) { return false; });
 }
 
 Way between(const Polyhedron& from, const Polyhedron& to) {
@@ -88,12 +104,13 @@ std::optional<Eigen::Vector3d> translation_between(const Shape& from, const Shap
 
 std::vector<std::size_t> first_alike(const std::vector<Primitive>& primitives,
                                      const std::vector<double>& sizes,
-                                     const std::vector<std::uint8_t>& may_own) {
+                                     std::span<const std::shared_ptr<const SharedSurface>> shared) {
     std::vector<std::size_t> result, firsts;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const auto alike = std::ranges::find_if(firsts, [&](std::size_t j) {
-            return sizes[i] == sizes[j] && may_own[i] == may_own[j] &&
-                   translation_between(*primitives[j].shape, *primitives[i].shape);
+            if (sizes[i] != sizes[j] || shared[i] != shared[j]) return false;
+            const Way way = translation_between(*primitives[j].shape, *primitives[i].shape);
+            return way && (!shared[i] || way->isZero(0));
         });
         result.push_back(alike != firsts.end() ? *alike : i);
         if (result.back() == i) firsts.push_back(i);

@@ -49,6 +49,20 @@ void check_count(const Shape& shape, const Sizing& sizing) {
                         length, triangles, most));
 }
 
+SurfaceSeed seed_shared(const Cone& shape, const TessellateOptions& options) {
+    const auto& shared = std::get<SharedCone>(options.shared->cut);
+    const Sizing sizing(shared.reference, options, thinnest_radius(shared.reference));
+    return seed_shared_surface(shape, sizing, shared);
+}
+
+SurfaceSeed seed_shared(const Ellipsoid& shape, const TessellateOptions& options) {
+    return seed_shared_surface(shape, std::get<SharedSphere>(options.shared->cut));
+}
+
+SurfaceSeed seed_shared(const Shape&, const TessellateOptions&) {
+    throw std::logic_error("a shape of a kind that shares no surfaces");
+}
+
 TriMesh to_mesh(const SurfaceSeed& seed) {
     TriMesh mesh;
     mesh.reserve(seed.points.size(), 3 * seed.triangles.size() / 2, seed.triangles.size());
@@ -80,9 +94,9 @@ TriMesh tessellate(const Primitive& primitive, const TessellateOptions& options)
     visit(*primitive.shape, [&](const auto& shape) {
         const Sizing sizing(shape, options, thinnest_radius(shape));
         check_count(shape, sizing);
-        const SurfaceSeed seed = seed_surface(shape, sizing);
+        const SurfaceSeed seed = options.shared ? seed_shared(shape, options) : seed_surface(shape, sizing);
         mesh = to_mesh(seed);
-        improve(mesh, shape, sizing, seed.corners);
+        improve(mesh, shape, sizing, seed.corners, options.shared != nullptr);
     });
     return mesh;
 }

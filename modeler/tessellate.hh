@@ -1,16 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "modeler/primitive.hh"
 #include "volmesh/tri_mesh.hh"
 
 namespace maille::modeler {
 
+struct SharedSurface;
+
 /// How finely a primitive's surface is cut into triangles.
 struct TessellateOptions {
     double size = 0;             ///< wanted edge length; has to be given
     double chord_tolerance = 0;  ///< greatest distance from a triangle to the true surface; 0: no limit
+    /// How the curved surface is cut that the primitive shares with others; null: as the primitive likes.
+    std::shared_ptr<const SharedSurface> shared{};
 };
 
 /// A closed surface of nearly equilateral triangles, oriented outwards. All vertices lie on the true surface;

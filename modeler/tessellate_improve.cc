@@ -37,7 +37,8 @@ double sharpness(const Point& a, const Point& b, const Point& c) {
 
 class Improver {
   public:
-    Improver(Mesh& mesh, const Shape& shape, const Sizing& sizing, std::span<const std::uint32_t> corners);
+    Improver(Mesh& mesh, const Shape& shape, const Sizing& sizing, std::span<const std::uint32_t> corners,
+             bool keep_first_face);
     void run();
 
   private:
@@ -87,6 +88,7 @@ class Improver {
     Mesh& mesh_;
     const Shape& shape_;
     const Sizing& sizing_;
+    bool keep_first_face_;
     OpenMesh::FPropHandleT<std::uint32_t> surface_;
     std::vector<bool> fixed_;      ///< by vertex
     std::vector<bool> is_smooth_;  ///< by vertex: on no sharp curve or corner
@@ -96,8 +98,12 @@ class Improver {
 };
 
 Improver::Improver(Mesh& mesh, const Shape& shape, const Sizing& sizing,
-                   std::span<const std::uint32_t> corners)
-    : mesh_(mesh), shape_(shape), sizing_(sizing), active_(shape.faces().size(), true) {
+                   std::span<const std::uint32_t> corners, bool keep_first_face)
+    : mesh_(mesh),
+      shape_(shape),
+      sizing_(sizing),
+      keep_first_face_(keep_first_face),
+      active_(shape.faces().size(), true) {
     mesh_.get_property_handle(surface_, "surface");
     mesh_.request_vertex_status();
     mesh_.request_edge_status();
@@ -186,6 +192,7 @@ bool Improver::find_active() {
         if (!is_rim(e) && (ratio > good_longest || ratio < good_shortest))
             active_[surface(mesh_.face_handle(mesh_.halfedge_handle(e, 0)))] = true;
     }
+    if (keep_first_face_) active_[0] = false;
     for (Face f : mesh_.faces())
         if (!active_[surface(f)])
             for (Vertex v : mesh_.fv_range(f)) fixed_[v.idx()] = true;
@@ -391,8 +398,8 @@ void Improver::run() {
 }  // namespace
 
 void improve(volmesh::TriMesh& mesh, const Shape& shape, const Sizing& sizing,
-             std::span<const std::uint32_t> corners) {
-    Improver(mesh, shape, sizing, corners).run();
+             std::span<const std::uint32_t> corners, bool keep_first_face) {
+    Improver(mesh, shape, sizing, corners, keep_first_face).run();
 }
 
 }  // namespace maille::modeler

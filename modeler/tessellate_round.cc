@@ -55,15 +55,18 @@ double slant_of(const Cone& cone) {
     return slant;
 }
 
-/// Heights of the rows, from 0 to 1: closer where the rows are shorter of edge.
-std::vector<double> row_heights(const Cone& cone, const Sizing& sizing) {
+/// Heights of the rows of a band, from its lower to its upper end: closer where the rows are shorter of edge.
+std::vector<double> row_heights(const Cone& cone, const Sizing& sizing, double low, double high) {
     constexpr int samples = 256;
     std::vector<double> wanted(samples);
     for (int i = 0; i < samples; ++i) {
-        const Circumference row(cone.map(), sizing, cone.radius((i + 0.5) / samples));
+        const double z = low + (high - low) * (i + 0.5) / samples;
+        const Circumference row(cone.map(), sizing, cone.radius(z));
         wanted[i] = row.length() / row.edges() * std::numbers::sqrt3 / 2;
     }
-    return graded_places(wanted, slant_of(cone));
+    std::vector<double> heights = graded_places(wanted, slant_of(cone) * (high - low));
+    for (double& height : heights) height = height < 1 ? low + (high - low) * height : high;
+    return heights;
 }
 
 }  // namespace
@@ -141,35 +144,47 @@ SurfaceSeed seed_surface(const Torus& shape, const Sizing& sizing) {
     return seed;
 }
 
+int rim_count(const Cone& cone, const Sizing& sizing, bool end) {
+    return rim_count(Circumference(cone.map(), sizing, cone.radius(end)), slant_of(cone));
+}
+
 SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing) {
-    const Circumference widest(shape.map(), sizing, 1);
-    const bool is_cylinder = shape.radius(0) == shape.radius(1);
-    const bool mirrored = is_mirror(shape.map());
-    const double slant = slant_of(shape);
+    const auto count = [&](bool end) { return shape.cap(end) ? rim_count(shape, sizing, end) : 0; };
+    return seed_shared_surface(shape, sizing,
+                               {.reference = shape, .rims = {{0, count(false)}, {1, count(true)}}});
+}
+
+SurfaceSeed seed_shared_surface(const Cone& shape, const Sizing& sizing, const SharedCone& shared) {
+    const Cone& cone = shared.reference;
+    const Circumference widest(cone.map(), sizing, 1);
+    const bool is_cylinder = cone.radius(0) == cone.radius(1);
+    const bool mirrored = is_mirror(cone.map());
     const auto place = [&](const Eigen::Vector2d& xy, double z) {
-        const double radius = shape.radius(z);
-        return Point(shape.map() * Point(radius * xy.x(), radius * xy.y(), z));
+        const double radius = cone.radius(z);
+        return Point(cone.map() * Point(radius * xy.x(), radius * xy.y(), z));
     };
+    const auto nearest_rim = [&, inverse = cone.map().inverse()](double own_height) {
+        const double z = (inverse * (shape.map() * Point(0, 0, own_height))).z();
+        return std::ranges::min_element(shared.rims, {}, [&](auto& rim) { return std::abs(rim.height - z); });
+    };
+    const auto [first, last] = std::minmax({nearest_rim(0), nearest_rim(1)});
+    const bool is_upside_down = nearest_rim(0) == last;
 
     SurfaceSeed seed;
     Row previous;
-    const std::vector<double> heights = row_heights(shape, sizing);
-    for (std::size_t k = 0; k < heights.size(); ++k) {
-        const double z = heights[k], radius = shape.radius(z);
-        const bool is_end = k == 0 || k + 1 == heights.size();
+    const auto add_row = [&](double z, int count, int offset) {
+        const bool is_bottom = z == first->height, is_top = z == last->height;
         Row row{.first = static_cast<std::uint32_t>(seed.points.size()), .count = 1, .offset = 0};
-        if (radius > 0) {
-            const Circumference circumference(shape.map(), sizing, radius);
-            row.count =
-                is_cylinder || is_end ? rim_count(circumference, slant) : to_count(circumference.edges(), 6);
-            row.offset = static_cast<int>(k % 2);
-            const auto cap = is_end ? shape.cap(k != 0) : std::nullopt;
+        if (count > 0) {
+            row.count = count;
+            row.offset = offset;
+            const auto cap = is_bottom || is_top ? shape.cap(is_top != is_upside_down) : std::nullopt;
             std::vector<std::uint32_t> loop;
-            for (int i = 0; i < row.count; ++i) {
-                const Point p = place(widest.direction(2 * i + row.offset, 2 * row.count), z);
+            for (int i = 0; i < count; ++i) {
+                const Point p = place(widest.direction(2 * i + offset, 2 * count), z);
                 loop.push_back(seed.add_point(cap ? shape.project(*cap, p) : p));
             }
-            if ((k == 0) != mirrored) std::ranges::reverse(loop);
+            if (is_bottom != mirrored) std::ranges::reverse(loop);
             if (cap) {
                 const Point centre = place(Eigen::Vector2d::Zero(), z);
                 fill_planar_face(seed, Plane(centre, shape.face_normal(*cap, centre)), {loop}, *cap,
@@ -178,9 +193,51 @@ SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing) {
         } else {
             seed.corners.push_back(seed.add_point(place(Eigen::Vector2d::Zero(), z)));
         }
-        if (k > 0) stitch(seed, previous, row, 0, mirrored);
+        if (!is_bottom) stitch(seed, previous, row, 0, mirrored);
         previous = row;
+    };
+    add_row(first->height, first->count, 0);
+    for (auto low = first; low != last; ++low) {
+        const auto high = std::next(low);
+        const std::vector<double> heights = row_heights(cone, sizing, low->height, high->height);
+        for (std::size_t k = 1; k + 1 < heights.size(); ++k) {
+            const Circumference row(cone.map(), sizing, cone.radius(heights[k]));
+            add_row(heights[k], is_cylinder ? first->count : to_count(row.edges(), 6),
+                    shared.is_straight ? 0 : static_cast<int>(k % 2));
+        }
+        add_row(high->height, high->count, 0);
     }
+    return seed;
+}
+
+SurfaceSeed seed_shared_surface(const Ellipsoid& sphere, const SharedSphere& shared) {
+    const int n = shared.count / 4;
+    const double radius = sphere.semi_axes()[0];
+    SurfaceSeed seed;
+    std::map<std::array<int, 3>, std::uint32_t> known;
+    // The point of the sphere with these parts of n, which are evenly spaced along the great circles.
+    const auto point_at = [&](const std::array<int, 3>& parts) {
+        const auto [entry, is_new] = known.try_emplace(parts, static_cast<std::uint32_t>(seed.points.size()));
+        if (is_new) {
+            Point p;
+            for (int k = 0; k < 3; ++k) p[k] = unit_circle(parts[k], 4 * n).y();
+            seed.add_point(sphere.map().translation() + radius * (shared.axes * p.normalized()));
+        }
+        return entry->second;
+    };
+    const bool is_left_handed = shared.axes.determinant() < 0;
+    for (const int x : {1, -1})
+        for (const int y : {1, -1})
+            for (const int z : {1, -1}) {
+                const auto at = [&](int i, int j) { return point_at({x * i, y * j, z * (n - i - j)}); };
+                const bool mirrored = (x * y * z < 0) != is_left_handed;
+                for (int i = 0; i < n; ++i)
+                    for (int j = 0; i + j < n; ++j) {
+                        seed.add_triangle({at(i, j), at(i + 1, j), at(i, j + 1)}, 0, mirrored);
+                        if (i + j + 1 < n)
+                            seed.add_triangle({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, 0, mirrored);
+                    }
+            }
     return seed;
 }
 

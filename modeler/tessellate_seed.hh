@@ -7,6 +7,7 @@
 #include "modeler/shape_polyhedron.hh"
 #include "modeler/shape_torus.hh"
 #include "modeler/shape_turned.hh"
+#include "modeler/shared_surface.hh"
 #include "modeler/tessellate.hh"
 #include "modeler/tessellate_polygon.hh"
 
@@ -66,6 +67,13 @@ SurfaceSeed seed_surface(const Torus& shape, const Sizing& sizing);
 SurfaceSeed seed_surface(const Cone& shape, const Sizing& sizing);
 SurfaceSeed seed_surface(const Polyhedron& shape, const Sizing& sizing);
 SurfaceSeed seed_surface(const Turned& shape, const Sizing& sizing);
+
+/// Of a primitive that shares its curved surface with others; the sizing is that of the reference.
+SurfaceSeed seed_shared_surface(const Cone& shape, const Sizing& sizing, const SharedCone& shared);
+SurfaceSeed seed_shared_surface(const Ellipsoid& sphere, const SharedSphere& shared);
+
+/// Edges of a cone's lower or upper rim.
+int rim_count(const Cone& cone, const Sizing& sizing, bool end);
 
 /// Covers a planar face, whose boundary is the loops of points of the seed, with triangles of about that
 /// size.

@@ -170,8 +170,22 @@ TEST_CASE("what is another solid moved, and what is not") {
         REQUIRE(found);
         CHECK((*found - by).norm() < 1e-14);
         CHECK_FALSE(way(solid, solid.scaled(1.01)));
-        CHECK_FALSE(way(solid, solid.scaled({1, 1, -1}).rotated(1)));
+        const bool is_ball = way(solid, sphere(1)).has_value();
+        CHECK(way(solid, solid.scaled({1, 1, -1}).rotated(1, {1, 2, 0})).has_value() == is_ball);
     }
+    // Round solids that are turned about themselves stay what they are.
+    const Solid bar = cylinder(1, .5), flat = ellipsoid({1, 1, 2});
+    for (const auto& [solid, turn] : {std::pair(sphere(1), Point(1, 2, 3)),
+                                      {bar, {0, 0, 1}},
+                                      {torus(2, .5), {0, 0, 1}},
+                                      {flat, {0, 0, 1}}}) {
+        REQUIRE(way(solid, solid.rotated(20, turn).at(by)));
+        CHECK((*way(solid, solid.rotated(20, turn).at(by)) - by).norm() < 1e-14);
+    }
+    CHECK(way(torus(2, .5), torus(2, .5).scaled({1, -1, -1})));
+    CHECK_FALSE(way(bar, bar.scaled({1, 1, -1})));
+    CHECK_FALSE(way(cone(1, 1, .5), cone(1, 1, .5).rotated(180, {1, 0, 0})));
+    CHECK_FALSE(way(flat, flat.rotated(20, {1, 0, 0})));
     CHECK_FALSE(way(sphere(1), box({1, 1, 1})));
     CHECK_FALSE(way(torus(2, .5), torus(2, .4)));
     CHECK_FALSE(way(turned(region), turned(region, 100)));
