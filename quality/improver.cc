@@ -19,8 +19,8 @@ Improver::Improver(TetMesh& mesh, std::vector<Shape> shapes, const ImproveOption
       freedom_at_(mesh.n_vertices(), 0),
       known_freedoms_(2),
       shapes_(std::move(shapes)),
-      tried_(mesh.n_cells(), 0),
       changed_(mesh.n_vertices(), 1),
+      smoothed_(mesh.n_vertices(), 0),
       result_(result) {}
 
 double Improver::worst() const {
@@ -37,12 +37,14 @@ std::size_t Improver::pass(bool all_moves) {
         return std::pair(shapes_[a].objective, a) < std::pair(shapes_[b].objective, b);
     });
     const std::size_t before = result_.edits();
+    for (auto& tried : tried_) tried.resize(mesh_.n_cells(), 0);
     for (std::uint32_t i : bad) {
         const CellHandle c(i);
         if (mesh_.is_deleted(c) || shapes_[i].objective >= options_.good_enough) continue;
-        const auto has_changed = [&](VertexHandle v) { return changed_[v.idx()] > tried_[i]; };
-        if (!all_moves && !std::ranges::any_of(mesh_.cell_vertices(c), has_changed)) continue;
-        tried_[i] = now_;
+        const auto has_changed = [&](VertexHandle v) { return changed_[v.idx()] > tried_[all_moves][i]; };
+        if (!std::ranges::any_of(mesh_.cell_vertices(c), has_changed)) continue;
+        tried_[0][i] = now_;
+        if (all_moves) tried_[1][i] = now_;
         improve_cell(c, all_moves);
     }
     ++result_.passes;
@@ -88,8 +90,9 @@ Bases Improver::bases_at(VertexHandle v, const CellList& cells) const {
 void Improver::settle(const CellList& changed, std::uint32_t first_new) {
     ++now_;
     shapes_.resize(mesh_.n_cells(), perfect_shape);
-    tried_.resize(mesh_.n_cells(), 0);
+    for (auto& tried : tried_) tried.resize(mesh_.n_cells(), 0);
     changed_.resize(mesh_.n_vertices(), 0);
+    smoothed_.resize(mesh_.n_vertices(), 0);
     freedom_at_.resize(mesh_.n_vertices(), 0);
     const auto measure = [&](CellHandle c) {
         const auto p = mesh_.cell_points(c);

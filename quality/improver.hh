@@ -24,8 +24,8 @@ class Improver {
              const volmesh::Projector* projector, ImproveResult& result);
 
     /// Tries all cells that are not good enough and near which something has changed since they were last
-    /// tried, the worst first. Vertices are added and taken out only with `all_moves`. Returns the number of
-    /// moves.
+    /// tried so, the worst first. Vertices are added and taken out only with `all_moves`. Returns the number
+    /// of moves.
     std::size_t pass(bool all_moves);
     /// Raises the mean of beta by sweeps over the mesh. No cell comes to be the mesh's worst; else cells may
     /// get worse as far as `least_objective`.
@@ -96,8 +96,10 @@ class Improver {
     std::vector<std::uint32_t> freedom_at_;
     std::deque<Freedom> known_freedoms_;
     std::vector<Shape> shapes_;           ///< of each cell; perfect where it is deleted
-    std::vector<std::uint32_t> tried_;    ///< when each cell was last tried
-    std::vector<std::uint32_t> changed_;  ///< when a cell at each vertex last changed
+    std::array<std::vector<std::uint32_t>, 2>
+        tried_;  ///< when each cell was last tried: by any moves, and by all of them
+    std::vector<std::uint32_t> changed_;   ///< when a cell at each vertex last changed
+    std::vector<std::uint32_t> smoothed_;  ///< when no better place was found for each vertex
     std::uint32_t now_ = 1;
     ImproveResult& result_;
 };

@@ -34,7 +34,6 @@ void Improver::raise_mean(double least_objective) {
         mean = mean_beta();
         if (mean >= options_.good_mean || mean < before + little) break;
     }
-    tried_.resize(mesh_.n_cells(), 0);
 }
 
 /// Moves vertices on surfaces, curves and flat sides.

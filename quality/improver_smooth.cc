@@ -8,14 +8,20 @@ IsAllowed Improver::allowed_places(VertexHandle v, const CellList& cells, const 
     const Point start = mesh_.point(v);
     const auto keeps_size = [this, &bases, start](const Point& p) { return limit_.keeps(bases, start, p); };
     if (freedom.surfaces.empty()) return keeps_size;
-    const auto pieces = std::make_shared<SurfacePieces>(mesh_, v, cells, surfaces_of_);
-    const double most_error = pieces->error(start, *projector_) + 1e-12 * projector_->model_size;
-    return [this, pieces, most_error, keeps_size](const Point& p) {
+    // Most vertices find no place worth asking for: the surfaces are looked up for those that do.
+    std::optional<SurfacePieces> pieces;
+    double most_error = 0;
+    return [=, this, &cells](const Point& p) mutable {
+        if (!pieces) {
+            pieces.emplace(mesh_, v, cells, surfaces_of_);
+            most_error = pieces->error(start, *projector_) + 1e-12 * projector_->model_size;
+        }
         return pieces->error(p, *projector_) <= most_error && keeps_size(p);
     };
 }
 
 bool Improver::smooth(VertexHandle v) {
+    if (changed_[v.idx()] <= smoothed_[v.idx()]) return false;
     const CellList cells = mesh_.vc_range(v);
     const Freedom& bound = freedom(v, cells);
     if (bound.is_fixed) return false;
@@ -23,7 +29,10 @@ bool Improver::smooth(VertexHandle v) {
     const Point start = mesh_.point(v);
     const auto place = better_place(bases, start, Constraint(bound, start, projector_),
                                     allowed_places(v, cells, bases, bound));
-    if (!place) return false;
+    if (!place) {
+        smoothed_[v.idx()] = now_;
+        return false;
+    }
     mesh_.set_point(v, *place);
     ++result_.moves;
     settle(cells, mesh_.n_cells());
