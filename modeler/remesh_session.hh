@@ -21,6 +21,9 @@ struct Session {
     std::uint64_t flipped = 0;
     std::uint64_t snapped = 0;
     std::uint64_t smoothed = 0;
+
+    std::vector<double> gap_sizes{};  ///< by vertex, as sheets and curves near it want them; 0: not known yet
+    std::uint64_t sized = 0;          ///< when they were found
 };
 
 }  // namespace maille::modeler::remeshing

@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -62,19 +63,76 @@ bool face_each_other(const Net& net, Index v, Index t, const Vec3& from_v_to_t) 
            });
 }
 
+Eigen::AlignedBox3d box_of(const Net& net, Index t) {
+    const auto [a, b, c] = net.corners(t);
+    return Eigen::AlignedBox3d(a).extend(b).extend(c);
+}
+
+/// Tells cheaply of most triangles near a vertex that the sheets there don't face them.
+class MayFace {
+  public:
+    MayFace(const Net& net, Index v) : net_(net), at_(net.point(v)), around_(net.neighbours(v)) {
+        around_.insert(std::ranges::lower_bound(around_, v), v);
+        for (const Index t : net.triangles_at(v)) {
+            const auto [a, b, c] = net.corners(t);
+            const Vec3 normal = (b - a).cross(c - a).normalized();
+            const auto is_same = [&](const Vec3& known) { return known.cross(normal).norm() < same_normal; };
+            if (std::ranges::none_of(normals_, is_same)) normals_.push_back(normal);
+        }
+    }
+
+    /// False where `face_each_other` says no or the triangle is further than `reach`, or meets the sheets in
+    /// a curve beside the vertex: those make no gap.
+    bool operator()(Index t, double reach) const {
+        const double distance = std::sqrt(box_of(net_, t).squaredExteriorDistance(at_));
+        if (distance >= reach) return false;
+        const Corners corners = net_.corners(t);
+        return std::ranges::all_of(normals_,
+                                   [&](const Vec3& normal) {
+                                       double off_plane = 0;
+                                       for (const Vec3& p : corners)
+                                           off_plane = std::max(off_plane, std::abs(normal.dot(p - at_)));
+                                       return off_plane >= (least_facing - same_normal) * distance;
+                                   }) &&
+               std::ranges::none_of(net_.triangle(t).vertices,
+                                    [&](Index w) { return std::ranges::binary_search(around_, w); });
+    }
+
+  private:
+    static constexpr double same_normal = 1e-3;
+
+    const Net& net_;
+    const Vec3& at_;
+    std::vector<Index> around_;
+    std::vector<Vec3> normals_;
+};
+
 /// Finds how wide the gaps between sheets and the strips between curves are around vertices. The net must not
 /// change while it does.
 class GapFinder {
   public:
     explicit GapFinder(const Net& net)
-        : net_(net), curves_(net.n_vertices()), at_curve_(net.n_triangles()), boxes_(boxes_of(net, alive_)) {
+        : net_(net),
+          curves_(net.n_vertices()),
+          curve_sides_(net.n_triangles()),
+          boxes_(boxes_of(net, alive_)),
+          ways_(net.n_vertices(), unreached),
+          questions_at_(net.n_vertices(), none) {
         for (const auto& [a, b] : net.edges()) {
             if (!net.is_feature(a, b)) continue;
             curves_[a].push_back(b);
             curves_[b].push_back(a);
-            for (const Index t : net.triangles_at(a, b)) at_curve_[t][side(net.triangle(t), a, b)] = true;
+            const Index t = net.triangles_at(a, b).front();
+            curve_sides_[t][side(net.triangle(t), a, b)] = true;
         }
-        ways_.assign(net.n_vertices(), unreached);
+    }
+
+    /// Whether any triangle changed after that time that comes nearer to v than `reach`.
+    bool has_changed(Index v, double reach, std::uint64_t since) const {
+        return !boxes_.visit_box(cube(v, reach), [&](std::uint32_t i) {
+            return std::ranges::none_of(net_.triangle(alive_[i]).vertices,
+                                        [&](Index w) { return net_.touched(w) > since; });
+        });
     }
 
     /// The size that suits the sheets and curves close to v: at most the one wanted. One below `least` counts
@@ -85,9 +143,10 @@ class GapFinder {
         double nearest = least / std::max(sizes_in_gap, sizes_in_strip);
         for (const Index w : net_.neighbours(v)) nearest = std::min(nearest, net_.length(v, w));
         double size = wanted;
+        const MayFace may_face(net_, v);
         for (double reach = std::min(nearest, furthest);; reach = std::min(2 * reach, furthest)) {
             collect(v, reach);
-            size = std::min(size, sizes_in_gap * gap_to_sheets(v, reach, size / sizes_in_gap));
+            size = std::min(size, sizes_in_gap * gap_to_sheets(v, may_face, reach, size / sizes_in_gap));
             if (net_.kind(v) != VertexKind::face)
                 size = std::min(size, sizes_in_strip * gap_to_curves(v, reach, size / sizes_in_strip));
             const double next = std::min(sizes_in_gap, sizes_in_strip) * reach;
@@ -99,15 +158,14 @@ class GapFinder {
     }
 
   private:
-    static constexpr std::size_t most_looked_at = 1000;
+    static constexpr std::size_t most_looked_at = 300;
     static constexpr double unreached = std::numeric_limits<double>::infinity();
 
     static std::vector<Eigen::AlignedBox3d> boxes_of(const Net& net, std::vector<Index>& alive) {
         std::vector<Eigen::AlignedBox3d> boxes;
         for (Index t = 0; t < net.n_triangles(); ++t) {
             if (!net.is_alive(t)) continue;
-            const auto [a, b, c] = net.corners(t);
-            boxes.push_back(Eigen::AlignedBox3d(a).extend(b).extend(c));
+            boxes.push_back(box_of(net, t));
             alive.push_back(t);
         }
         return boxes;
@@ -121,26 +179,26 @@ class GapFinder {
         return 2;
     }
 
+    Eigen::AlignedBox3d cube(Index v, double reach) const {
+        return {net_.point(v) - Vec3::Constant(reach), net_.point(v) + Vec3::Constant(reach)};
+    }
+
     void collect(Index v, double reach) {
-        const Vec3& p = net_.point(v);
         nearby_.clear();
-        boxes_.visit_box({p - Vec3::Constant(reach), p + Vec3::Constant(reach)}, [&](std::uint32_t i) {
+        boxes_.visit_box(cube(v, reach), [&](std::uint32_t i) {
             nearby_.push_back(alive_[i]);
             return true;
         });
     }
 
     /// The width of the gap between v and other sheets, if it is less than `reach` and `gap`; else `gap`.
-    /// Those that meet in a curve beside v make no gap.
-    double gap_to_sheets(Index v, double reach, double gap) const {
-        const auto next = net_.neighbours(v);
-        const auto is_next = [&](Index w) { return w == v || std::ranges::binary_search(next, w); };
+    double gap_to_sheets(Index v, const MayFace& may_face, double reach, double gap) const {
         for (const Index t : nearby_) {
-            if (std::ranges::any_of(net_.triangle(t).vertices, is_next)) continue;
+            const double most = std::min(gap, reach);
+            if (!may_face(t, most)) continue;
             const Vec3 to_sheet = nearest_on_triangle(net_.corners(t), net_.point(v)) - net_.point(v);
             const double distance = to_sheet.norm();
-            if (distance > 0 && distance < std::min(gap, reach) && face_each_other(net_, v, t, to_sheet))
-                gap = distance;
+            if (distance > 0 && distance < most && face_each_other(net_, v, t, to_sheet)) gap = distance;
         }
         return gap;
     }
@@ -148,49 +206,83 @@ class GapFinder {
     /// The width of the strip between v, on a curve, and other curves, or distant parts of its own; if it is
     /// less than `reach` and `gap`; else `gap`.
     double gap_to_curves(Index v, double reach, double gap) {
-        find_ways(v, least_detour * reach);
+        edges_.clear();
         for (const Index t : nearby_)
             for (std::size_t i = 0; i < 3; ++i) {
-                if (!at_curve_[t][i]) continue;
+                if (!curve_sides_[t][i]) continue;
                 const Index a = net_.triangle(t).vertices[i];
                 const Index b = net_.triangle(t).vertices[(i + 1) % 3];
                 const double distance = distance_to_segment(net_.point(v), net_.point(a), net_.point(b));
-                if (distance < std::min(gap, reach) && ways_[a] > least_detour * distance &&
-                    ways_[b] > least_detour * distance)
-                    gap = distance;
+                if (distance < std::min(gap, reach)) edges_.push_back({distance, a, b, false});
             }
-        for (const Index w : reached_) ways_[w] = unreached;
+        find_ways(v);
+        for (const NearEdge& edge : edges_)
+            if (!edge.is_reached) gap = std::min(gap, edge.distance);
         return gap;
     }
 
-    /// The ways from v to other vertices along curves, as far as `reach` (Dijkstra).
-    void find_ways(Index v, double reach) {
+    /// An edge of a curve near the vertex that is looked at.
+    struct NearEdge {
+        double distance;
+        Index a, b;
+        bool is_reached;  ///< along curves, by a way that is not much longer
+    };
+    /// Asks for the way to the end of an edge.
+    struct Question {
+        std::size_t edge;
+        Index next;  ///< at the same end, or `none`
+    };
+
+    /// Tells which of the near edges are reached from v along curves (Dijkstra).
+    void find_ways(Index v) {
+        double furthest = 0;
+        std::size_t n_unreached = edges_.size();
+        questions_.clear();
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            furthest = std::max(furthest, least_detour * edges_[i].distance);
+            for (const Index end : {edges_[i].a, edges_[i].b})
+                questions_.push_back(
+                    {i, std::exchange(questions_at_[end], static_cast<Index>(questions_.size()))});
+        }
         using Entry = std::pair<double, Index>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-        reached_.clear();
         const auto consider = [&](double way, Index w) {
-            if (way > reach || way >= ways_[w]) return;
+            if (way > furthest || way >= ways_[w]) return;
             if (ways_[w] == unreached) reached_.push_back(w);
             ways_[w] = way;
             queue.push({way, w});
         };
+        reached_.clear();
         consider(0, v);
-        while (!queue.empty()) {
+        while (!queue.empty() && n_unreached > 0) {
             const auto [way, w] = queue.top();
             queue.pop();
             if (way > ways_[w]) continue;
+            for (Index q = questions_at_[w]; q != none; q = questions_[q].next) {
+                NearEdge& edge = edges_[questions_[q].edge];
+                if (!edge.is_reached && way <= least_detour * edge.distance) {
+                    edge.is_reached = true;
+                    --n_unreached;
+                }
+            }
             for (const Index x : curves_[w]) consider(way + net_.length(w, x), x);
         }
+        for (const Index w : reached_) ways_[w] = unreached;
+        for (const NearEdge& edge : edges_)
+            for (const Index end : {edge.a, edge.b}) questions_at_[end] = none;
     }
 
     const Net& net_;
-    std::vector<std::vector<Index>> curves_;     // the other ends of the feature edges at each vertex
-    std::vector<std::array<bool, 3>> at_curve_;  // which sides of each triangle are feature edges
-    std::vector<Index> alive_;                   // the triangles in the tree
+    std::vector<std::vector<Index>> curves_;        // the other ends of the feature edges at each vertex
+    std::vector<std::array<bool, 3>> curve_sides_;  // of each triangle: feature edges, each of one triangle
+    std::vector<Index> alive_;                      // the triangles in the tree
     modeler::detail::BoxTree boxes_;
     std::vector<Index> nearby_;
+    std::vector<NearEdge> edges_;
     std::vector<double> ways_;
     std::vector<Index> reached_;
+    std::vector<Question> questions_;
+    std::vector<Index> questions_at_;  // the last question for each vertex
 };
 
 double wanted_size(const Session& session, Index v) {
@@ -241,16 +333,23 @@ void limit_growth(Net& net) {
 void set_sizes(Session& session) {
     Net& net = session.net;
     GapFinder gaps(net);
+    std::vector<double>& sizes = session.gap_sizes;
+    sizes.resize(net.n_vertices(), 0);
     for (Index v = 0; v < net.n_vertices(); ++v) {
         if (net.triangles_at(v).empty()) continue;
-        double size = frozen_size(net, v);
-        if (size == 0) {
-            const double wanted = wanted_size(session, v);
-            size = gaps.size_at(v, wanted, session.options.smallest_gap * wanted);
+        if (const double frozen = frozen_size(net, v); frozen > 0) {
+            sizes[v] = frozen;
+            continue;
         }
-        net.set_size(v, size);
+        // What was found before holds where nothing has changed as far as was looked for it.
+        if (sizes[v] > 0 && !gaps.has_changed(v, sizes[v] / sizes_in_gap, session.sized)) continue;
+        const double wanted = wanted_size(session, v);
+        sizes[v] = gaps.size_at(v, wanted, session.options.smallest_gap * wanted);
     }
+    for (Index v = 0; v < net.n_vertices(); ++v)
+        if (!net.triangles_at(v).empty()) net.set_size(v, sizes[v]);
     limit_growth(net);
+    session.sized = net.now();
 }
 
 }  // namespace maille::modeler::remeshing

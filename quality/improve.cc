@@ -1,5 +1,8 @@
 #include "quality/improve.hh"
 
+#include <algorithm>
+#include <cmath>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -48,11 +51,15 @@ ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmes
     result.worst_before = improver.worst();
     // What this leaves below good_enough the passes better.
     improver.raise_mean(0.75 * options.good_enough);
+    auto tries_left = static_cast<std::size_t>(std::ceil(options.tries_per_cell * mesh.n_cells()));
+    const std::size_t most_tries = (tries_left + 3) / 4;
     bool all_moves = false;
-    for (int pass = 0; pass < options.max_passes; ++pass) {
-        const std::size_t n_moves = improver.pass(all_moves);
+    for (int pass = 0; pass < options.max_passes && !result.is_cut_short; ++pass) {
+        const auto [tries, edits] = improver.pass(all_moves, std::min(most_tries, tries_left));
+        tries_left -= tries;
+        result.is_cut_short = tries_left == 0;
         // Vertices come and go only where nothing else helps; then the rest is tried again.
-        if (n_moves == 0 && all_moves) break;
+        if (edits == 0 && all_moves && tries < most_tries) break;
         all_moves = !all_moves && pass > 0;
     }
     // They may cost some of the mean.

@@ -11,6 +11,9 @@ namespace maille::quality {
 
 struct ImproveOptions {
     int max_passes = 12;
+    /// Most cells that the passes try, for each cell of the mesh; one pass tries a quarter of that, the worst
+    /// first. Only meshes that are bad all over reach it, where more tries gain little.
+    double tries_per_cell = 0.75;
     /// Cells whose objective (objective.hh) is at least this are left as they are; .5 stands for angles of 30
     /// and 125 degrees and beta = .58.
     double good_enough = 0.5;
@@ -30,6 +33,7 @@ struct ImproveResult {
     int passes = 0;
     std::size_t moves = 0, edge_removals = 0, face_removals = 0, collapses = 0, splits = 0;
     double worst_before = 0, worst_after = 0;  ///< least objective of the mesh
+    bool is_cut_short = false;                 ///< by `tries_per_cell`
 
     std::size_t edits() const { return moves + edge_removals + face_removals + collapses + splits; }
 };

@@ -29,7 +29,7 @@ double Improver::worst() const {
     return least;
 }
 
-std::size_t Improver::pass(bool all_moves) {
+Improver::Pass Improver::pass(bool all_moves, std::size_t most_tries) {
     std::vector<std::uint32_t> bad;
     for (std::uint32_t i = 0; i < mesh_.n_cells(); ++i)
         if (shapes_[i].objective < options_.good_enough) bad.push_back(i);
@@ -38,17 +38,20 @@ std::size_t Improver::pass(bool all_moves) {
     });
     const std::size_t before = result_.edits();
     for (auto& tried : tried_) tried.resize(mesh_.n_cells(), 0);
+    std::size_t tries = 0;
     for (std::uint32_t i : bad) {
+        if (tries == most_tries) break;
         const CellHandle c(i);
         if (mesh_.is_deleted(c) || shapes_[i].objective >= options_.good_enough) continue;
         const auto has_changed = [&](VertexHandle v) { return changed_[v.idx()] > tried_[all_moves][i]; };
         if (!std::ranges::any_of(mesh_.cell_vertices(c), has_changed)) continue;
         tried_[0][i] = now_;
         if (all_moves) tried_[1][i] = now_;
+        ++tries;
         improve_cell(c, all_moves);
     }
     ++result_.passes;
-    return result_.edits() - before;
+    return {tries, result_.edits() - before};
 }
 
 bool Improver::improve_cell(CellHandle c, bool all_moves) {

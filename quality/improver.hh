@@ -24,9 +24,12 @@ class Improver {
              const volmesh::Projector* projector, ImproveResult& result);
 
     /// Tries all cells that are not good enough and near which something has changed since they were last
-    /// tried so, the worst first. Vertices are added and taken out only with `all_moves`. Returns the number
-    /// of moves.
-    std::size_t pass(bool all_moves);
+    /// tried so, the worst first, and no more than `most_tries`. Vertices are added and taken out only with
+    /// `all_moves`.
+    struct Pass {
+        std::size_t tries, edits;
+    };
+    Pass pass(bool all_moves, std::size_t most_tries);
     /// Raises the mean of beta by sweeps over the mesh. No cell comes to be the mesh's worst; else cells may
     /// get worse as far as `least_objective`.
     void raise_mean(double least_objective);
@@ -95,10 +98,10 @@ class Improver {
     /// Place in known_freedoms_ by vertex; 0: not known yet, 1: free.
     std::vector<std::uint32_t> freedom_at_;
     std::deque<Freedom> known_freedoms_;
-    std::vector<Shape> shapes_;           ///< of each cell; perfect where it is deleted
+    std::vector<Shape> shapes_;  ///< of each cell; perfect where it is deleted
     std::array<std::vector<std::uint32_t>, 2>
-        tried_;  ///< when each cell was last tried: by any moves, and by all of them
-    std::vector<std::uint32_t> changed_;   ///< when a cell at each vertex last changed
+        tried_;                           ///< when each cell was last tried: by any moves, and by all of them
+    std::vector<std::uint32_t> changed_;  ///< when a cell at each vertex last changed
     std::vector<std::uint32_t> smoothed_;  ///< when no better place was found for each vertex
     std::uint32_t now_ = 1;
     ImproveResult& result_;

@@ -136,6 +136,28 @@ TEST_CASE("no pass lowers the worst cell") {
         }
 }
 
+TEST_CASE("a limit of tries is kept to, the worst first") {
+    TetMesh mesh = shaken_cube(6, false, 17);
+    const TetMesh before = mesh;
+    ImproveOptions options = moves_only;
+    options.tries_per_cell = 100;
+    TetMesh unlimited = mesh;
+    const ImproveResult all = improve(unlimited, options);
+    CHECK_FALSE(all.is_cut_short);
+    options.tries_per_cell = 16.0 / mesh.n_cells();
+    const ImproveResult result = improve(mesh, options);
+    CHECK(result.is_cut_short);
+    // A try moves the four vertices of a cell at most.
+    CHECK(result.moves > 0);
+    CHECK(result.moves <= 16 * 4);
+    CHECK(all.moves > result.moves);
+    CHECK(result.worst_after > result.worst_before);
+    std::size_t n_moved = 0;
+    for (VertexHandle v : mesh.vertices()) n_moved += mesh.point(v) != before.point(v);
+    CHECK(n_moved <= 16 * 4);
+    CHECK(validate(mesh).ok());
+}
+
 TEST_CASE("with a projector the boundary moves on its geometric support only") {
     TetMesh mesh = shaken_cube(5, true, 23);
     name_sides(mesh);

@@ -14,8 +14,9 @@ void improve_with_progress(volmesh::TetMesh& mesh, const refine::SizeField* size
         options.size = &wanted;
     }
     const quality::ImproveResult result = quality::improve(mesh, options, projector);
-    progress.note(fmt::format("improved by {} edits, the worst element from {:.3f} to {:.3f}", result.edits(),
-                              result.worst_before, result.worst_after));
+    progress.note(fmt::format("improved by {} edits, the worst element from {:.3f} to {:.3f}{}",
+                              result.edits(), result.worst_before, result.worst_after,
+                              result.is_cut_short ? "; ended early: too many elements are bad" : ""));
     summary.edits += result.edits();
     summary.clock.end(Phase::improve);
 }
