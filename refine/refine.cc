@@ -1,7 +1,6 @@
 #include "refine/refine.hh"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,23 +13,11 @@
 #include "refine/project.hh"
 #include "refine/relocate.hh"
 #include "refine/rivara.hh"
+#include "refine/stopwatch.hh"
 #include "volmesh/error.hh"
 
 namespace maille::refine {
 namespace {
-
-/// Adds the time that it lives to a sum.
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& sum) : sum_(sum) {}
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-    ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-  private:
-    double& sum_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 using Cells = std::vector<CellHandle>;
 

@@ -9,8 +9,15 @@ namespace maille::volmesh {
 void TetMesh::request_edges() const {
     if (edges_) return;
     edges_.emplace();
+    edges_->of_cell.assign(cells_.size(), {none, none, none, none, none, none});
+    number_remaining_edges();
+    properties_of(EntityKind::edge).for_each([&](BaseProperty& property) {
+        property.resize(edges_->place.size());
+    });
+}
+
+void TetMesh::number_remaining_edges() const {
     auto& [of_cell, place] = *edges_;
-    of_cell.assign(cells_.size(), {none, none, none, none, none, none});
     for (Index c = 0; c < n_cells(); ++c) {
         if (is_deleted(CellHandle(c))) continue;
         for (int e = 0; e < 6; ++e) {
@@ -23,14 +30,20 @@ void TetMesh::request_edges() const {
             place.push_back(8 * c + e);
         }
     }
-    properties_of(EntityKind::edge).for_each([&](BaseProperty& property) { property.resize(place.size()); });
 }
 
 void TetMesh::request_faces() const {
     if (faces_) return;
     faces_.emplace();
+    faces_->of_cell.assign(cells_.size(), {none, none, none, none});
+    number_remaining_faces();
+    properties_of(EntityKind::face).for_each([&](BaseProperty& property) {
+        property.resize(faces_->halfface.size());
+    });
+}
+
+void TetMesh::number_remaining_faces() const {
     auto& [of_cell, halfface] = *faces_;
-    of_cell.assign(cells_.size(), {none, none, none, none});
     for (Index hf = 0; hf < n_halffaces(); ++hf) {
         if (is_deleted(HalffaceHandle(hf)) || of_cell[hf / 4][hf % 4] != none) continue;
         const auto number = static_cast<Index>(halfface.size());
@@ -39,9 +52,6 @@ void TetMesh::request_faces() const {
             of_cell[other / 4][other % 4] = number;
         halfface.push_back(hf);
     }
-    properties_of(EntityKind::face).for_each([&](BaseProperty& property) {
-        property.resize(halfface.size());
-    });
 }
 
 /// Throws std::logic_error while there are edge properties, which would be lost.

@@ -98,6 +98,24 @@ class Mesh(MailleCase):
         coarse = abs(self.info(self.mesh(PLATE, "0.6", "coarse.vtu"))["volume"] - (9 - math.pi * 0.64))
         self.assertLess(abs(self.info("plate.vtu")["volume"] - (9 - math.pi * 0.64)), coarse)
 
+    def test_refine_uniformly(self):
+        start = self.info(self.mesh(PLATE, "0.6", "start.vtu"))
+        hole = 2 * math.pi * 0.8
+        errors = [abs(self.sets("start.vtu", "face")["hole/side"] - hole)]
+        for levels in (1, 2):
+            summary = self.maille_json("refine", "start.vtu", "--model", self.model(PLATE), "--uniform", str(levels), "-o", "fine.vtu")
+            self.check_summary(summary)
+            self.assertEqual(summary["iterations"], levels)
+            self.assertEqual(summary["cells"], 8**levels * start["cells"])
+            self.assertEqual(summary["projection"]["short_of_target"], 0)
+            self.maille("validate", "fine.vtu")
+            errors.append(abs(self.sets("fine.vtu", "face")["hole/side"] - hole))
+        for coarse, fine in zip(errors, errors[1:]):
+            self.assertGreater(math.log2(coarse / fine), 1.9)
+        flat = self.maille_json("refine", "start.vtu", "--uniform", "1", "-o", "flat.vtu")
+        self.assertEqual(flat["projection"]["moved"], 0)
+        self.assertAlmostEqual(self.info("flat.vtu")["volume"], start["volume"])
+
     def test_sizes_by_sets_and_curvature(self):
         model = self.model(PLATE)
         size = "min(0.6, 0.1+0.3*d('hole/side'))"

@@ -22,12 +22,18 @@ int main(int argc, char** argv) {
     auto* refinement = app.add_subcommand("refine", "Refines a mesh of the unit cube");
     refinement->add_option("--start", start, "The start mesh: kuhn:N (N^3 bricks of six) or a file")
         ->capture_default_str();
-    const std::map<std::string, Work> works{
-        {"local", Work::local}, {"expression", Work::expression}, {"uniform", Work::uniform}};
-    refinement->add_option("--work", what.work, "local, expression (the same as a text) or uniform")
+    const std::map<std::string, Work> works{{"local", Work::local},
+                                            {"expression", Work::expression},
+                                            {"uniform", Work::uniform},
+                                            {"eighths", Work::eighths}};
+    refinement
+        ->add_option("--work", what.work,
+                     "local, expression (the same as a text), uniform (to one size) or eighths")
         ->transform(CLI::CheckedTransformer(works));
     refinement->add_option("--scale", what.scale, "Local work: multiplies all sizes")->capture_default_str();
     refinement->add_option("--size", what.size, "Uniform work: the size");
+    refinement->add_option("--levels", what.levels, "Eighths: how often every element is cut into eight")
+        ->capture_default_str();
     refinement->add_flag("!--bare", what.with_parts, "Without the twenty sets and the property");
     refinement->add_flag("--check", what.check, "Validate the results, which takes longer than the work");
     refinement->add_option("--threads", what.threads)->capture_default_str();

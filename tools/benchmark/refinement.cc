@@ -9,6 +9,7 @@
 
 #include "quality/measures.hh"
 #include "refine/refine.hh"
+#include "refine/uniform.hh"
 #include "tools/benchmark/meter.hh"
 #include "tools/benchmark/named_parts.hh"
 #include "volmesh/validate.hh"
@@ -27,11 +28,19 @@ struct Figures {
 
 refine::SizeField size_of(const RefinementCase& what) {
     if (what.work == Work::uniform) return refine::SizeField(what.size);
+    if (what.work == Work::eighths) return refine::SizeField(1.0);
     if (what.work == Work::expression)
         return refine::parse_size(fmt::format("{}*(0.0008+0.05*(1-exp(-r)))", what.scale));
     return refine::SizeField([scale = what.scale](const volmesh::Point& p) {
         return scale * (0.0008 + 0.05 * (1 - std::exp(-p.norm())));
     });
+}
+
+refine::RefineResult refine_by(const RefinementCase& what, volmesh::TetMesh& mesh,
+                               const refine::SizeField& size) {
+    if (what.work == Work::eighths)
+        return refine::refine_uniformly(mesh, {.levels = what.levels, .threads = what.threads});
+    return refine::refine(mesh, size, {.threads = what.threads});
 }
 
 /// A number that changes with every bit of the mesh (FNV-1a on whole words).
@@ -65,7 +74,7 @@ Figures measure(const CellSoup& soup, const RefinementCase& what) {
     if (what.with_parts) name_parts(mesh);
     const std::uint32_t n_before = mesh.n_cells();
     const Seconds start = now();
-    const refine::RefineResult result = refine::refine(mesh, size, {.threads = what.threads});
+    const refine::RefineResult result = refine_by(what, mesh, size);
     figures.seconds = now() - start;
     figures.peak = peak_bytes() - before;
     figures.phases = result.seconds;

@@ -9,7 +9,8 @@ namespace maille::benchmark {
 enum class Work {
     local,       ///< to 0.0008 + 0.05 (1 - exp(-r)), r from the origin, as a C++ function
     expression,  ///< the same as a text
-    uniform      ///< to one size
+    uniform,     ///< to one size
+    eighths      ///< every element into eight, level by level
 };
 
 struct RefinementCase {
@@ -17,6 +18,7 @@ struct RefinementCase {
     Work work = Work::local;
     double scale = 1;  ///< of the sizes of local work
     double size = 0;   ///< of uniform work
+    int levels = 2;    ///< of work by eighths
     bool with_parts = true;
     bool check = false;  ///< validate the result
     int threads = 1;

@@ -21,6 +21,7 @@ struct RefineCommandOptions {
     ModelOptions model;
     SizeOptions size;
     refine::RefineOptions refine;
+    int levels = 0;  ///< of uniform refinement; 0: to a size
     OutputOptions output;
 };
 
@@ -48,7 +49,25 @@ std::optional<modeler::Model> model_of(const RefineCommandOptions& options) {
     return read(model);
 }
 
+void refine_to_size(const RefineCommandOptions& options, const SizeArguments& sizes, volmesh::TetMesh& mesh,
+                    const volmesh::Projector* surfaces, Progress& progress, Summary& summary) {
+    const refine::SizeField size = smallest(sizes, {&mesh, surfaces});
+    summary.add(refine_with_progress(mesh, size, options.refine, surfaces, progress));
+    summary.clock.end(Phase::refine);
+    if (options.refine.smooth) improve_refined(mesh, size, options.refine, surfaces, progress, summary);
+}
+
+void refine_by_levels(const RefineCommandOptions& options, volmesh::TetMesh& mesh,
+                      const volmesh::Projector* surfaces, Progress& progress, Summary& summary) {
+    const refine::UniformOptions uniform{
+        .levels = options.levels, .project = options.refine.project, .min_shape = options.refine.min_shape};
+    summary.add(refine_uniformly_with_progress(mesh, uniform, surfaces, progress));
+    summary.clock.end(Phase::refine);
+}
+
 void run(const RefineCommandOptions& options) {
+    if (options.size.texts.empty() && options.levels == 0)
+        throw InputError("give a size (--size) or a number of levels (--uniform)");
     check_output(options.output);
     const SizeArguments sizes = read(options.size);
     Summary summary;
@@ -62,10 +81,10 @@ void run(const RefineCommandOptions& options) {
     volmesh::TetMesh mesh = read_mesh_or_make(options, model, surfaces, progress, summary);
 
     progress.step("refining");
-    const refine::SizeField size = smallest(sizes, {&mesh, surfaces});
-    summary.add(refine_with_progress(mesh, size, options.refine, surfaces, progress));
-    summary.clock.end(Phase::refine);
-    if (options.refine.smooth) improve_refined(mesh, size, options.refine, surfaces, progress, summary);
+    if (options.levels > 0)
+        refine_by_levels(options, mesh, surfaces, progress, summary);
+    else
+        refine_to_size(options, sizes, mesh, surfaces, progress, summary);
 
     progress.step("writing");
     write(mesh, options.output);
@@ -83,9 +102,18 @@ void add_refine_command(CLI::App& program) {
         "maille refine examples/tee.csg --size 0.1 --method rivara --order longest -o tee.msh", options, run);
     command.add_option("MESH", options->input, "Mesh file, or model file (.csg, .geo)")->required();
     add_output_options(command, options->output);
-    add_size_options(command, "--size", options->size, std::string("Wanted size: ") + refined_size_help)
-        ->required();
+    CLI::Option* size =
+        add_size_options(command, "--size", options->size, std::string("Wanted size: ") + refined_size_help);
     add_refine_options(command, options->refine);
+    CLI::Option* levels = command
+                              .add_option("--uniform", options->levels,
+                                          "Instead of a size: cut every element into eight, N times")
+                              ->check(CLI::Range(1, 9))
+                              ->type_name("N");
+    for (const char* name :
+         {"--method", "--order", "--ties", "--ratio", "--gradation", "--max-iterations", "--smooth"})
+        levels->excludes(command.get_option(name));
+    levels->excludes(size);
     CLI::Option& smooth = *command.get_option("--smooth");
     smooth.description(
         smooth.get_description() +

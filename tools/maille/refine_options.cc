@@ -67,6 +67,17 @@ std::string words_for(const std::vector<refine::ShortOfTarget>& all) {
     return fmt::format("{}", fmt::join(lines, "; "));
 }
 
+auto notes_to(Progress& progress) {
+    return [&progress](const refine::Progress& pass) {
+        progress.note(fmt::format("pass {}, {} cells", pass.iterations, pass.cells));
+    };
+}
+
+void warn_of_short(const refine::RefineResult& result, Progress& progress) {
+    if (!result.projection.short_of_target.empty())
+        progress.warn(words_for(result.projection.short_of_target));
+}
+
 }  // namespace
 
 const std::string& method_name(Method method) {
@@ -119,15 +130,20 @@ refine::RefineResult refine_with_progress(volmesh::TetMesh& mesh, const refine::
                                           refine::RefineOptions options, const volmesh::Projector* projector,
                                           Progress& progress) {
     refuse_too_many_cells(mesh, size, options);
-    options.progress = [&](const refine::Progress& pass) {
-        progress.note(fmt::format("pass {}, {} cells", pass.iterations, pass.cells));
-    };
+    options.progress = notes_to(progress);
     refine::RefineResult result = refine::refine(mesh, size, options, projector);
     if (!result.ended)
         progress.warn(fmt::format("refinement was stopped after {} passes, with elements left to refine",
                                   result.iterations));
-    if (!result.projection.short_of_target.empty())
-        progress.warn(words_for(result.projection.short_of_target));
+    warn_of_short(result, progress);
+    return result;
+}
+
+refine::RefineResult refine_uniformly_with_progress(volmesh::TetMesh& mesh, refine::UniformOptions options,
+                                                    const volmesh::Projector* projector, Progress& progress) {
+    options.progress = notes_to(progress);
+    refine::RefineResult result = refine::refine_uniformly(mesh, options, projector);
+    warn_of_short(result, progress);
     return result;
 }
 

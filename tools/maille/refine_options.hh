@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 
 #include "refine/refine.hh"
+#include "refine/uniform.hh"
 #include "tools/maille/progress.hh"
 
 namespace maille::tools {
@@ -19,5 +20,8 @@ void add_refine_options(CLI::App& command, refine::RefineOptions& options);
 refine::RefineResult refine_with_progress(volmesh::TetMesh& mesh, const refine::SizeField& size,
                                           refine::RefineOptions options, const volmesh::Projector* projector,
                                           Progress& progress);
+/// The same for uniform refinement.
+refine::RefineResult refine_uniformly_with_progress(volmesh::TetMesh& mesh, refine::UniformOptions options,
+                                                    const volmesh::Projector* projector, Progress& progress);
 
 }  // namespace maille::tools
