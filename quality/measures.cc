@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "quality/accurate_volume.hh"
+
 namespace maille::quality {
 namespace {
 
@@ -16,6 +18,9 @@ double power_of_two_near(double x) {
     std::frexp(x, &exponent);
     return std::ldexp(1.0, std::max(exponent, -1000));
 }
+
+/// Below this sine, as it were, of the solid angle at a vertex the volume has lost three digits or more.
+constexpr double near_flat = 1e-3;
 
 double cube(double x) {
     return x * x * x;
@@ -120,15 +125,18 @@ TetGeometry tet_geometry(const Point& a, const Point& b, const Point& c, const P
     t.normal_products = {normals[2].dot(normals[3]), normals[1].dot(normals[3]), normals[1].dot(normals[2]),
                          normals[0].dot(normals[3]), normals[0].dot(normals[2]), normals[0].dot(normals[1])};
 
-    t.volume = -ad.dot(normals[3]) / 6;
+    const Point towards_center =
+        ab.squaredNorm() * normals[1] + ac.squaredNorm() * normals[2] + ad.squaredNorm() * normals[3];
+    AccurateVolume accurate{-ad.dot(normals[3]), towards_center.norm()};
+    if (std::abs(accurate.six_volumes) < near_flat * t.lengths[0] * t.lengths[1] * t.lengths[2])
+        accurate = accurate_volume(a, b, c, d, t.unit);
+    t.volume = accurate.six_volumes / 6;
     t.inradius = ratio(3 * t.volume, area);
-    if (t.volume != 0) {
-        const Point towards_center =
-            -ab.squaredNorm() * normals[1] - ac.squaredNorm() * normals[2] - ad.squaredNorm() * normals[3];
-        // No sphere through both ends of an edge is smaller than it: rounding may not say so for a near-flat
-        // cell.
-        t.circumradius = std::max(towards_center.norm() / std::abs(12 * t.volume), t.longest_edge / 2);
-    }
+    // No sphere through both ends of an edge is smaller than it: rounding may not say so for a near-flat
+    // cell.
+    if (t.volume != 0)
+        t.circumradius =
+            std::max(accurate.twelve_volumes_times_radius / std::abs(12 * t.volume), t.longest_edge / 2);
     return t;
 }
 

@@ -8,6 +8,9 @@ NAMES = ("volume beta sigma omega tau kappa alpha gamma dihedral_min dihedral_ma
          "condition mean_ratio scaled_jacobian").split()
 
 
+ALLOWED_ERROR = 1e-10  # relative
+
+
 def random_tets(n, rng):
     """Positively oriented: as they come, flattened, with a short edge, with a point near an edge."""
     tets = rng.uniform(-1, 1, (n, 4, 3))
@@ -30,11 +33,6 @@ def measured(probe, tets):
 
 
 def plumpness(tets, volume):
-    """How many digits the volume has: 1 where the tetrahedron is plump."""
+    """The volume over the cube of the longest edge; doubles lose as many digits of it as this is below 1."""
     edges = np.array([tets[:, j] - tets[:, i] for i in range(4) for j in range(i + 1, 4)])
     return np.abs(volume) / np.sqrt((edges**2).sum(-1)).max(0) ** 3
-
-
-def allowed_error(plump):
-    """All measures lose as many digits as the volume does by cancellation; nothing is lost where it is plump."""
-    return 1e-10 * np.maximum(1, 1e-5 / plump)
