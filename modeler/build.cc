@@ -25,15 +25,21 @@ using volmesh::EntityKind;
 using volmesh::SetHandle;
 using volmesh::TetMesh;
 
+/// Of all primitives, also of what is cut off.
 double diagonal(const Model& model) {
     Eigen::AlignedBox3d box;
     for (const Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
     return box.diagonal().norm();
 }
 
+double default_size(const Model& model) {
+    const Eigen::AlignedBox3d box = bounding_box(model);
+    return (box.isEmpty() ? diagonal(model) : box.diagonal().norm()) / 20;
+}
+
 std::vector<double> sizes_of_primitives(const Model& model, const BuildOptions& options) {
     if (options.size < 0) throw InputError(fmt::format("the size has to be positive, not {}", options.size));
-    const double general = options.size > 0 ? options.size : diagonal(model) / 20;
+    const double general = options.size > 0 ? options.size : default_size(model);
     std::vector<double> sizes;
     for (const Primitive& primitive : model.primitives)
         sizes.push_back(primitive.size > 0 ? primitive.size : general);

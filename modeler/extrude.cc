@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "modeler/extrude_ridge.hh"
 #include "modeler/openscad_facets.hh"
 #include "modeler/shape_turned.hh"
 #include "modeler/shapes.hh"
@@ -72,6 +75,13 @@ class Stack {
         faces_.push_back(std::move(face));
     }
 
+    /// For the last layer, which is a line.
+    Ridge ridge(Eigen::Index axis) { return {points_, corner(n_layers() - 1, 0), axis}; }
+
+    void add_faces(std::vector<PolyhedronFace> faces) {
+        std::ranges::move(faces, std::back_inserter(faces_));
+    }
+
     std::shared_ptr<const Shape> solid(const Eigen::Affine3d& frame) {
         return make_polyhedron(std::move(points_), std::move(faces_), frame);
     }
@@ -119,6 +129,16 @@ std::shared_ptr<const Shape> linear_extrude(const PlaneRegion& region, const Lin
     const auto ends_flat = [&](std::size_t k) {
         return k + 2 == stack.n_layers() && extrusion.scale.minCoeff() == 0;
     };
+    std::optional<Ridge> ridge;
+    if (extrusion.scale.minCoeff() == 0 && extrusion.scale.maxCoeff() > 0)
+        ridge = stack.ridge(extrusion.scale.x() > 0 ? 0 : 1);
+    // The triangle of a side that has an edge above.
+    const auto add_upper = [&](std::size_t k, Corner foot, Corner d, Corner c, const std::string& name) {
+        if (ridge && ends_flat(k))
+            ridge->add(foot, d, c, name);
+        else
+            stack.add_face({foot, d, c}, name);
+    };
     const bool is_flat = extrusion.twist == 0 && extrusion.scale.x() == extrusion.scale.y();
     for (std::size_t k = 0; k + 1 < stack.n_layers(); ++k)
         stack.for_each_side(k, k + 1, [&](const std::string& name, const Quad& quad, bool is_hole) {
@@ -127,19 +147,20 @@ std::shared_ptr<const Shape> linear_extrude(const PlaneRegion& region, const Lin
                 stack.add_face({a, b, d, c}, name);
             } else if (splits_from_a(stack, quad, (extrusion.twist <= 0) == is_hole) != ends_flat(k)) {
                 stack.add_face({a, b, d}, name);
-                stack.add_face({a, d, c}, name);
+                add_upper(k, a, d, c, name);
             } else {
                 stack.add_face({a, b, c}, name);
-                stack.add_face({b, d, c}, name);
+                add_upper(k, b, d, c, name);
             }
         });
+    if (ridge) stack.add_faces(ridge->faces());
     stack.add_cap(0, false, "bottom");
     if (extrusion.scale.minCoeff() > 0) stack.add_cap(stack.n_layers() - 1, true, "top");
     try {
         return stack.solid(frame);
     } catch (const InputError& error) {
         if (extrusion.scale.minCoeff() > 0 || extrusion.scale.maxCoeff() == 0) throw;
-        throw InputError(fmt::format("the shape shrinks to a line, along which the solid does not close ({})",
+        throw InputError(fmt::format("the shape shrinks to a line, along which the solid touches itself ({})",
                                      error.what()));
     }
 }

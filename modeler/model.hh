@@ -39,6 +39,10 @@ struct ModelSurface {
 /// of the surface everywhere in the modeler.
 std::vector<ModelSurface> surfaces(const Model& model);
 
+/// A box around the solid that the tree makes, from those of the primitives: as small as can be for unions; what
+/// is cut off may leave it too large. Empty where the solid certainly is.
+Eigen::AlignedBox3d bounding_box(const Model& model);
+
 /// Faces between two regions of the mesh lie on a surface too, but are no part of its boundary: their face
 /// set has the surface's name with this after it.
 inline constexpr std::string_view inner_suffix = "/inner";

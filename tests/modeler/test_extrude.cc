@@ -7,12 +7,14 @@
 
 #include <doctest/doctest.h>
 
+#include "modeler/build.hh"
 #include "modeler/model.hh"
 #include "modeler/openscad_facets.hh"
 #include "modeler/outline.hh"
 #include "modeler/tessellate.hh"
 #include "tests/modeler/surface_checks.hh"
 #include "volmesh/error.hh"
+#include "volmesh/measure.hh"
 
 using namespace maille;
 using namespace maille::modeler;
@@ -182,6 +184,28 @@ TEST_CASE("twisted and unevenly scaled extrusions are those of OpenSCAD 2021.01"
     // A roof: the top is a line.
     CHECK(volume("linear_extrude(height = 3, scale = [1, 0]) square([4, 2], center = true);") ==
           doctest::Approx(12).epsilon(1e-14));
+}
+
+TEST_CASE("an extrusion may end in a line, wherever the corners of its shape come to lie there") {
+    // Volumes of the .stl files that OpenSCAD 2021.01 writes.
+    const auto check = [](const std::string& arguments, const std::string& shape, double expected) {
+        CHECK(volume("linear_extrude(height = 3, " + arguments + ") " + shape) ==
+              doctest::Approx(expected).epsilon(2e-5));
+    };
+    const std::string triangle = "polygon([[0, -1], [3, 0], [1, 2]]);", wheel = "circle(r = 2, $fn = 7);";
+    const std::string hexagon = "polygon([[-2, -1], [0, -2], [3, -1], [4, 1], [1, 3], [-1, 2]]);";
+    check("scale = [1, 0]", triangle, 6);
+    check("scale = [1, 0], twist = 90", triangle, 5.706269);
+    check("scale = [0, 1]", triangle, 5.888889);
+    check("scale = [0, 2], twist = 90", triangle, 8.285559);
+    check("scale = [1, 0]", wheel, 16.418474);
+    check("scale = [.5, 0]", wheel, 13.269653);
+    check("scale = [0, 2]", wheel, 21.891277);
+    check("scale = [.5, 0]", hexagon, 23.722210);
+    check("scale = [0, 2], twist = 90", hexagon, 39.439114);
+    check("scale = [1, 0]", "polygon([[0, 0], [5, 0], [4, 2], [2, 1], [1, 3]]);", 11);
+    CHECK(volmesh::volume(build(model_of("linear_extrude(height = 3, scale = [.5, 0]) " + wheel))) ==
+          doctest::Approx(13.269653).epsilon(2e-5));
 }
 
 TEST_CASE("the number of slices is that of OpenSCAD 2021.01") {

@@ -217,6 +217,26 @@ TEST_CASE("geo: names of primitives and surfaces") {
     CHECK(sized.primitives[2].name == "s");
 }
 
+TEST_CASE("geo: the default size is that of the object, not of the endless solids that it is cut from") {
+    const Model bar = geo_model(
+        "solid s = cylinder (0, 0, 0; 0, 0, 1; 1) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 8; 0, 0, "
+        "1); "
+        "tlo s;");
+    const auto box = bounding_box(bar);
+    CHECK(box.min().z() == doctest::Approx(0));
+    CHECK(box.max().z() == doctest::Approx(8));
+    CHECK(box.contains(Eigen::AlignedBox3d(Point(-1, -1, 0), Point(1, 1, 8))));
+    CHECK(box.diagonal().norm() < 1.05 * Point(2, 2, 8).norm());
+    // What is cut off is not of the solid, though it may be of its box.
+    const auto of = [](const std::string& text) { return bounding_box(parse_model(text, "box.csg")); };
+    CHECK(
+        of("difference() { cube(2); cylinder(h = 99, r = .1); }").isApprox({Point(0, 0, 0), Point(2, 2, 2)}));
+    CHECK(of("intersection() { cube(2); translate([1, 1, 1]) cube(9); }")
+              .isApprox({Point(1, 1, 1), Point(2, 2, 2)}));
+    CHECK(of("union() { cube(1); intersection() { cube(2); translate([3, 0, 0]) cube(1); } }")
+              .isApprox({Point(0, 0, 0), Point(1, 1, 1)}));
+}
+
 TEST_CASE("geo: errors name line and column") {
     const auto check = [](const std::string& text, const std::string& message) {
         CAPTURE(text);

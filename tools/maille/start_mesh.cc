@@ -18,8 +18,8 @@ struct Range {
 /// Of the size over the model's box, on a lattice.
 Range range_of(const refine::SizeField& size, const modeler::Model& model) {
     constexpr int steps = 24;
-    Eigen::AlignedBox3d box;
-    for (const modeler::Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
+    const Eigen::AlignedBox3d box = modeler::bounding_box(model);
+    if (box.isEmpty()) return {0, 0};
     const double first = size(box.min());
     Range range{.least = first, .greatest = first};
     for (int i = 0; i <= steps; ++i)
