@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
@@ -24,14 +26,29 @@ struct Keyed {
     std::uint32_t key;
     CellHandle cell;
 };
+using KeyedCells = volmesh::Column<Keyed>;
 
-/// One pass of a radix sort: by some bits of the keys, equals as they were.
-void sort_by_bits(const std::vector<Keyed>& from, std::vector<Keyed>& to, int shift) {
+/// One pass of a radix sort: by some bits of the keys, equals as they were. Many threads count and move parts
+/// of the cells, each to the places that the parts before it leave.
+void sort_by_bits(const KeyedCells& from, KeyedCells& to, int shift) {
+    constexpr std::size_t n_parts = 32;
+    using Counts = std::array<std::uint32_t, last_step + 1>;
+    std::vector<Counts> places(n_parts);
     const auto digit = [shift](const Keyed& k) { return (k.key >> shift) & last_step; };
-    std::array<std::size_t, last_step + 2> begins{};
-    for (const Keyed& k : from) ++begins[digit(k) + 1];
-    for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
-    for (const Keyed& k : from) to[begins[digit(k)]++] = k;
+    const auto part = [&](std::size_t i) {
+        return std::span(from.begin() + from.size() * i / n_parts,
+                         from.begin() + from.size() * (i + 1) / n_parts);
+    };
+    tbb::parallel_for(std::size_t{0}, n_parts, [&](std::size_t i) {
+        places[i].fill(0);
+        for (const Keyed& k : part(i)) ++places[i][digit(k)];
+    });
+    std::uint32_t sum = 0;
+    for (std::uint32_t value = 0; value <= last_step; ++value)
+        for (Counts& counts : places) sum += std::exchange(counts[value], sum);
+    tbb::parallel_for(std::size_t{0}, n_parts, [&](std::size_t i) {
+        for (const Keyed& k : part(i)) to[places[i][digit(k)]++] = k;
+    });
 }
 
 }  // namespace
@@ -54,7 +71,9 @@ std::uint32_t CurveOrder::key(const volmesh::Point& p) const {
 }
 
 void CurveOrder::sort(std::vector<CellHandle>& cells, const TetMesh& mesh) const {
-    std::vector<Keyed> keyed(cells.size()), other(cells.size());
+    KeyedCells keyed, other;
+    keyed.grow(cells.size());
+    other.grow(cells.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i)
             keyed[i] = {key(mesh.point(mesh.cell_vertex(cells[i], 0))), cells[i]};

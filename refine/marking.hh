@@ -13,7 +13,7 @@ enum class Order : std::uint8_t {
     longest,  ///< the longest edge first
     shape,    ///< the worst shape first, by inscribed radius over longest edge: for start meshes of poor
               ///< quality
-    none      ///< as they were made
+    none      ///< as they were made; by Rivara along a curve through space, which is faster
 };
 
 /// Those of the cells whose longest edge is longer than `ratio` times the size at their centroid, in the
