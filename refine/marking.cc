@@ -34,6 +34,13 @@ bool is_too_long(const Bisector& bisector, CellHandle c, const SizeField& size, 
     return true;
 }
 
+constexpr std::size_t look_ahead = 12;  // cells, to hide the memory's latency
+
+/// Lets the processor begin to read a cell's points.
+void fetch_points(const TetMesh& mesh, CellHandle c) {
+    for (const VertexHandle v : mesh.cell_vertices(c)) __builtin_prefetch(mesh.point(v).data());
+}
+
 double sigma(const TetMesh& mesh, CellHandle c) {
     const auto p = mesh.cell_points(c);
     return quality::sigma(quality::tet_geometry(p[0], p[1], p[2], p[3]));
@@ -45,8 +52,10 @@ std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<cons
                                         const SizeField& size, double ratio) {
     std::vector<std::uint8_t> marked(cells.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            if (i + look_ahead < cells.size()) fetch_points(bisector.mesh(), cells[i + look_ahead]);
             marked[i] = is_too_long(bisector, cells[i], size, ratio) ? 1 : 0;
+        }
     });
     std::vector<CellHandle> chosen;
     for (std::size_t i = 0; i < cells.size(); ++i)
