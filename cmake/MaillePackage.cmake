@@ -9,7 +9,7 @@ file(RELATIVE_PATH MAILLE_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 set(MAILLE_PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/maille)
 
 # The modules that each room's .pc file asks for, and what has no module.
-set(MAILLE_MODULES_volmesh "eigen3 fmt tbb pugixml zlib nlohmann_json openmesh")
+set(MAILLE_MODULES_volmesh "eigen3 fmt tbb pugixml libdeflate libisal nlohmann_json openmesh")
 set(MAILLE_MODULES_quality "maille-volmesh")
 set(MAILLE_MODULES_refine "maille-quality muparser")
 set(MAILLE_MODULES_modeler "maille-quality polyclipping")

@@ -167,6 +167,15 @@ TEST_CASE("what is wrong is named with its place") {
                   "tetrahedron 0 has vertex 1");
     require_error(mfem, "MFEM mesh v1.0\nvertices\n2\nnodes\nFiniteElementSpace\n", "vertices should have 3");
     require_error(mfem, "MFEM mesh v1.3\nattribute_sets\n1\n\"East\n1 1\n", "has no closing quote");
+    require_error(mfem, "MFEM mesh v1.3\nmfem_mesh_end\nset_rules\n1\ncell \"East\" sometimes\n",
+                  "'sometimes' is no rule of sets");
+    require_error(mfem, "MFEM mesh v1.3\nmfem_mesh_end\nset_rules\n1\nthing \"East\" none\n",
+                  "'thing' is no kind of set");
+    put(folder / "a.sets.json",
+        "{\"vertices\": 0, \"cells\": 0, \"sets\": [{\"name\": \"East\", \"kind\": "
+        "\"cell\", \"references\": [4.4e109]}]}");
+    require_error(mesh, medit + "Vertices\n0\nEnd\n", "set 'East' has a reference that is no whole number");
+    std::filesystem::remove(folder / "a.sets.json");
     require_error(folder / "a.e", "an Exodus file", "a.e: is no Exodus file");
     require_error(folder / "a.e", std::string("CDF\x01\0\0\0\0\0\0\0\x0A\xff\xff\xff\xff", 16),
                   "a.e: byte 16: a list is said to have 4294967295 entries");

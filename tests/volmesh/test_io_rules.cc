@@ -53,7 +53,9 @@ TEST_CASE("rules of sets are kept, and a refined mesh goes on as if it had never
                                             {".msh", "msh22"},
                                             {".mesh", ""},
                                             {".node", ""},
-                                            {".inp", ""}}) {
+                                            {".inp", ""},
+                                            {".mfem", ""},
+                                            {".e", ""}}) {
         CAPTURE(extension);
         TetMesh mesh = test::kuhn_cube(2);
         const auto late =
@@ -64,6 +66,8 @@ TEST_CASE("rules of sets are kept, and a refined mesh goes on as if it had never
         mesh.add_set("from rim", EntityKind::vertex, SetRule::from_edges(rim));
         mesh.add_set("both", EntityKind::vertex, SetRule::both_ends());
         mesh.add_set("both in late", EntityKind::vertex, SetRule::both_ends(late));
+        const auto long_name = mesh.add_set(std::string(200, 'n') + "  | end", EntityKind::face);
+        mesh.add_set("of a long name", EntityKind::vertex, SetRule::from_faces(long_name));
         mesh.add_set("own", EntityKind::cell, SetRule::custom([](auto&&...) { return true; }));
         mesh.add_set("load", EntityKind::vertex);
         for (auto hf : mesh.boundary_halffaces())

@@ -46,9 +46,11 @@ int main(int argc, char** argv) {
     mesh->add_option("--repeat", what.repeats, "The best of so many runs")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
-    int kuhn_of_files = 94;
+    std::string start_of_files = "kuhn:94";
     auto* files = app.add_subcommand("files", "Writes and reads a mesh, and copies its files");
-    files->add_option("--kuhn", kuhn_of_files, "Bricks a side; 94 makes 4,983,504 tetrahedra")
+    files
+        ->add_option("--start", start_of_files,
+                     "The mesh: kuhn:N or a file; kuhn:94 has 4,983,504 tetrahedra")
         ->capture_default_str();
     files->add_option("--repeat", what.repeats, "The best of so many runs")
         ->capture_default_str()
@@ -62,7 +64,7 @@ int main(int argc, char** argv) {
             print_refinement_header();
             run(start_mesh(start), what);
         } else if (files->parsed()) {
-            measure_files(kuhn_cube(kuhn_of_files), what.repeats);
+            measure_files(start_mesh(start_of_files), what.repeats);
         } else {
             const CellSoup soup = kuhn_cube(kuhn);
             fmt::print("{} tetrahedra, ordered\n\n", soup.cells.size());

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string_view>
+#include <utility>
+
 #include <exodusII.h>
 
 namespace maille::volmesh::io {
@@ -40,11 +43,38 @@ struct ExodusLibrary {
 /// Throws InputError where it is not installed, naming the package.
 const ExodusLibrary& exodus_library();
 
+/// An open file, which is closed with the object.
+class ExodusFile {
+  public:
+    ExodusFile() = default;
+    /// What opening or creating gave: negative where it failed.
+    explicit ExodusFile(int id) : id_(id) {}
+    ~ExodusFile() { close(); }
+    ExodusFile(const ExodusFile&) = delete;
+    ExodusFile& operator=(const ExodusFile&) = delete;
+    ExodusFile& operator=(ExodusFile&& other) noexcept {
+        close();
+        id_ = std::exchange(other.id_, -1);
+        return *this;
+    }
+
+    operator int() const { return id_; }  // NOLINT: it stands for the number in the library's calls
+    /// Negative where what was written cannot be kept.
+    int close() { return id_ < 0 ? 0 : exodus_library().close(std::exchange(id_, -1)); }
+
+  private:
+    int id_ = -1;
+};
+
 /// Exodus numbers the sides of a tetrahedron 1 to 4; here by our local face.
 inline constexpr int exodus_side[4] = {2, 3, 1, 4};
 
 /// What a file's information says where we wrote it: sets of cells are its element sets, not its blocks, and
 /// cells are to come in the order of their numbers.
 inline constexpr const char* exodus_mark = "maille: element sets are the sets of cells";
+
+/// So begins a line of information that tells the rule of a set, or a piece of it: what follows is the kind,
+/// the set's number and the piece, which a bar ends, as the library takes blanks from ends of lines.
+inline constexpr std::string_view exodus_rule_mark = "maille rule ";
 
 }  // namespace maille::volmesh::io

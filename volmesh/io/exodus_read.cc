@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstring>
+#include <map>
 #include <span>
+#include <sstream>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "volmesh/error.hh"
 #include "volmesh/io/exodus_library.hh"
@@ -14,6 +21,7 @@
 #include "volmesh/io/input_file.hh"
 #include "volmesh/io/mesh_draft.hh"
 #include "volmesh/io/netcdf_header.hh"
+#include "volmesh/io/rule_text.hh"
 
 namespace maille::volmesh::io {
 
@@ -25,11 +33,6 @@ using Numbers = std::vector<std::int64_t>;
 class ExodusReader {
   public:
     explicit ExodusReader(const Path& path);
-    ~ExodusReader() {
-        if (file_ >= 0) library_.close(file_);
-    }
-    ExodusReader(const ExodusReader&) = delete;
-    ExodusReader& operator=(const ExodusReader&) = delete;
 
     MeshDraft read();
 
@@ -49,7 +52,9 @@ class ExodusReader {
     }
     Numbers ids(ex_entity_type type, std::size_t n, const char* what) const;
     std::string name(ex_entity_type type, std::int64_t id) const;
-    bool has_mark() const;
+    std::vector<std::string> information() const;
+    bool has_mark() const { return std::ranges::find(information_, exodus_mark) != information_.end(); }
+    void read_rules();
     void read_points();
     template <std::size_t N>
     void read_block(ex_entity_type type, std::int64_t id, std::vector<std::array<Index, N>>& elements);
@@ -64,8 +69,11 @@ class ExodusReader {
     const ExodusLibrary& library_;
     std::size_t bytes_ = 0;
     std::size_t room_ = 0;  ///< what the longest variable takes: the library fills as much of any array
-    int file_ = -1;
+    ExodusFile file_;
     ex_init_params sizes_{};
+    std::vector<std::string> information_;
+    /// By kind and number.
+    std::map<std::pair<EntityKind, std::int64_t>, std::string> set_names_;
     MeshDraft draft_;
 };
 
@@ -80,7 +88,8 @@ ExodusReader::ExodusReader(const Path& path) : path_(path), library_(exodus_libr
     int word = sizeof(double);
     int stored_word = 0;
     float version = 0;
-    file_ = library_.open(path.c_str(), EX_READ, &word, &stored_word, &version, EX_API_VERS_NODOT);
+    file_ =
+        ExodusFile(library_.open(path.c_str(), EX_READ, &word, &stored_word, &version, EX_API_VERS_NODOT));
     check(file_, "the file");
     library_.set_int64_status(file_, EX_ALL_INT64_API);
     const auto longest = library_.inquire_int(file_, EX_INQ_DB_MAX_USED_NAME_LENGTH);
@@ -108,16 +117,33 @@ std::string ExodusReader::name(ex_entity_type type, std::int64_t id) const {
     return text.data();
 }
 
-bool ExodusReader::has_mark() const {
+std::vector<std::string> ExodusReader::information() const {
     const auto n = library_.inquire_int(file_, EX_INQ_INFO);
-    if (n <= 0) return false;
+    if (n <= 0) return {};
     std::vector<std::array<char, MAX_LINE_LENGTH + 1>> lines(
         checked(n, 1, "the number of lines of information"));
     std::vector<char*> places;
     for (auto& line : lines) places.push_back(line.data());
-    if (library_.get_info(file_, places.data()) < 0) return false;
-    return std::ranges::any_of(lines,
-                               [](const auto& line) { return std::strcmp(line.data(), exodus_mark) == 0; });
+    if (library_.get_info(file_, places.data()) < 0) return {};
+    return {places.begin(), places.end()};
+}
+
+void ExodusReader::read_rules() {
+    std::map<std::pair<EntityKind, std::int64_t>, std::string> rules;
+    for (const std::string& line : information_) {
+        if (!line.starts_with(exodus_rule_mark)) continue;
+        std::istringstream words(line.substr(exodus_rule_mark.size()));
+        std::string kind;
+        std::int64_t number = 0;
+        std::string piece;
+        words >> kind >> number;
+        words.get();
+        std::getline(words, piece);
+        rules[{parse_kind(kind), number}] += piece.substr(0, piece.rfind('|'));
+    }
+    for (const auto& [of, rule] : rules)
+        if (const auto name = set_names_.find(of); name != set_names_.end())
+            draft_.set(name->second, of.first).rule = parse_set_rule(rule, of.first);
 }
 
 void ExodusReader::read_points() {
@@ -225,8 +251,8 @@ void ExodusReader::read_sets(ex_entity_type type, EntityKind kind, std::int64_t 
         if (n > 0)
             check(library_.get_set(file_, type, id, entries.data(), has_extras ? extras.data() : nullptr),
                   "a set");
-        add_members(draft_.set(name(type, id), kind), std::span(entries).first(n),
-                    std::span(extras).first(n));
+        const std::string& of_set = set_names_[{kind, id}] = name(type, id);
+        add_members(draft_.set(of_set, kind), std::span(entries).first(n), std::span(extras).first(n));
     }
 }
 
@@ -250,6 +276,7 @@ void ExodusReader::put_cells_in_order() {
 }
 
 MeshDraft ExodusReader::read() {
+    information_ = information();
     read_points();
     read_cells();
     read_edges();
@@ -258,12 +285,44 @@ MeshDraft ExodusReader::read() {
     read_sets(EX_EDGE_SET, EntityKind::edge, sizes_.num_edge_sets);
     read_sets(EX_NODE_SET, EntityKind::vertex, sizes_.num_node_sets);
     put_cells_in_order();
+    try {
+        read_rules();
+    } catch (const InputError& error) {
+        fail(error.what());
+    }
     return std::move(draft_);
+}
+
+bool is_hdf5(const Path& path) {
+    return InputFile(path).text().starts_with("\x89HDF");
+}
+
+/// HDF5's library may crash on a damaged file. So another process reads it first: what that one survives,
+/// this one does, which reads the same.
+void read_in_another_process(const Path& path) {
+    const pid_t child = ::fork();
+    if (child < 0)
+        throw InputError(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+    if (child == 0) {
+        for (int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
+        if (const int nowhere = ::open("/dev/null", O_WRONLY); nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+        try {
+            ExodusReader(path).read();
+        } catch (const std::exception&) {  // for the other process to meet and tell
+        }
+        ::_exit(0);
+    }
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw InputError(path.string() + ": cannot be read: it is damaged, so that HDF5's library fails");
 }
 
 }  // namespace
 
 TetMesh read_exodus(const Path& path) {
+    if (is_hdf5(path)) read_in_another_process(path);
     return assemble(ExodusReader(path).read(), path);
 }
 

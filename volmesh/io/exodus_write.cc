@@ -1,6 +1,7 @@
 // Exodus II, through its library. Cells of the same sets are one block; sets of cells are element sets too,
 // as a cell may be in several; of faces side sets, of vertices node sets. Edges in sets are an edge block
-// with its edge sets. The map of elements tells where cells were in the mesh.
+// with its edge sets. The map of elements tells where cells were in the mesh, lines of information the rules
+// of sets.
 #if __has_include(<exodusII.h>)
 
 #include <algorithm>
@@ -14,7 +15,9 @@
 #include "volmesh/io/exodus_library.hh"
 #include "volmesh/io/formats.hh"
 #include "volmesh/io/output_file.hh"
+#include "volmesh/io/rule_text.hh"
 #include "volmesh/io/set_elements.hh"
+#include "volmesh/io/vtk_names.hh"
 
 namespace maille::volmesh::io {
 
@@ -28,11 +31,6 @@ constexpr std::size_t longest_name = 255;
 class ExodusWriter {
   public:
     ExodusWriter(const TetMesh& mesh, const Path& path);
-    ~ExodusWriter() {
-        if (file_ >= 0) library_.close(file_);
-    }
-    ExodusWriter(const ExodusWriter&) = delete;
-    ExodusWriter& operator=(const ExodusWriter&) = delete;
 
     void write();
 
@@ -47,6 +45,8 @@ class ExodusWriter {
     void write_blocks();
     void write_sets();
     void write_set(SetHandle set);
+    std::vector<std::string> information() const;
+    std::int64_t number_of(SetHandle set) const;
     void put_set(ex_entity_type type, SetHandle set, const Numbers& entries, const Numbers& extras);
     void put_name(ex_entity_type type, std::int64_t id, const std::string& name);
     std::size_t n_sets(EntityKind kind) const;
@@ -55,7 +55,7 @@ class ExodusWriter {
     const TetMesh& mesh_;
     PlaceBeside place_;
     const ExodusLibrary& library_;
-    int file_ = -1;
+    ExodusFile file_;
     CombinationNumbers numbers_;
     std::vector<std::vector<CellHandle>> blocks_;
     Numbers element_of_;  ///< by cell, from 1
@@ -72,8 +72,8 @@ ExodusWriter::ExodusWriter(const TetMesh& mesh, const Path& path)
                             path.string(), mesh.set_info(SetHandle(s)).name, longest_name));
     int word = sizeof(double);
     int stored_word = sizeof(double);
-    file_ = library_.create(place_.temporary().c_str(), EX_CLOBBER | EX_LARGE_MODEL, &word, &stored_word,
-                            EX_API_VERS_NODOT);
+    file_ = ExodusFile(library_.create(place_.temporary().c_str(), EX_CLOBBER | EX_LARGE_MODEL, &word,
+                                       &stored_word, EX_API_VERS_NODOT));
     check(file_);
     library_.set_int64_status(file_, EX_ALL_INT64_API);
     library_.set_max_name_length(file_, static_cast<int>(longest_name));
@@ -146,11 +146,33 @@ void ExodusWriter::write_blocks() {
     check(library_.put_conn(file_, EX_EDGE_BLOCK, 1, nodes.data(), nullptr, nullptr));
 }
 
+/// From 1 on among the sets of its kind.
+std::int64_t ExodusWriter::number_of(SetHandle set) const {
+    std::int64_t number = 1;
+    for (Index s = 0; s < set.idx(); ++s)
+        number += mesh_.set_info(SetHandle(s)).kind == mesh_.set_info(set).kind;
+    return number;
+}
+
+/// Our mark, and the rules of sets in pieces that fit in a line.
+std::vector<std::string> ExodusWriter::information() const {
+    constexpr std::size_t longest_piece = 40;
+    std::vector<std::string> lines{exodus_mark};
+    for (const EntityKind kind : {EntityKind::cell, EntityKind::face, EntityKind::edge, EntityKind::vertex})
+        for (Index s = 0; s < mesh_.n_sets(); ++s) {
+            const SetInfo& set = mesh_.set_info(SetHandle(s));
+            if (set.kind != kind) continue;
+            const std::string rule = set_rule_text(mesh_, set);
+            for (std::size_t at = 0; at < rule.size(); at += longest_piece)
+                lines.push_back(fmt::format("{}{} {} {}|", exodus_rule_mark, vtk::kind_name(kind),
+                                            number_of(SetHandle(s)), rule.substr(at, longest_piece)));
+        }
+    return lines;
+}
+
 void ExodusWriter::put_set(ex_entity_type type, SetHandle set, const Numbers& entries,
                            const Numbers& extras) {
-    // From 1 on among the sets of its kind.
-    std::int64_t id = 1;
-    for (Index s = 0; s < set.idx(); ++s) id += mesh_.set_info(SetHandle(s)).kind == mesh_.set_info(set).kind;
+    const std::int64_t id = number_of(set);
     check(library_.put_set_param(file_, type, id, static_cast<std::int64_t>(entries.size()), 0));
     if (!entries.empty())
         check(library_.put_set(file_, type, id, entries.data(), extras.empty() ? nullptr : extras.data()));
@@ -192,9 +214,10 @@ void ExodusWriter::write_set(SetHandle set) {
 void ExodusWriter::write() {
     sort_cells_into_blocks();
     write_sizes();
-    std::string mark = exodus_mark;
-    char* information[] = {mark.data()};
-    check(library_.put_info(file_, 1, information));
+    std::vector<std::string> lines = information();
+    std::vector<char*> places;
+    for (std::string& line : lines) places.push_back(line.data());
+    check(library_.put_info(file_, static_cast<int>(lines.size()), places.data()));
     std::array<std::string, 3> axes{"x", "y", "z"};
     char* names[] = {axes[0].data(), axes[1].data(), axes[2].data()};
     check(library_.put_coord_names(file_, names));
@@ -208,7 +231,7 @@ void ExodusWriter::write() {
     for (Index c = 0; c < mesh_.n_cells(); ++c) numbers[element_of_[c] - 1] = std::int64_t{c} + 1;
     if (!numbers.empty()) check(library_.put_id_map(file_, EX_ELEM_MAP, numbers.data()));
     write_sets();
-    check(library_.close(std::exchange(file_, -1)));
+    check(file_.close());
     place_.commit();
 }
 

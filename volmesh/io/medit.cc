@@ -79,10 +79,7 @@ void MeditReader::read_vertices() {
     const std::size_t n = text_.count("the number of vertices", 8);
     draft_.points.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const double x = text_.coordinate();
-        const double y = text_.coordinate();
-        const double z = text_.coordinate();
-        draft_.points.emplace_back(x, y, z);
+        draft_.points.push_back(text_.point());
         references_.add(EntityKind::vertex, text_.integer<long long>("a reference"), static_cast<Index>(i));
     }
 }

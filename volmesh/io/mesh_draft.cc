@@ -79,23 +79,22 @@ SetHandle made_set(TetMesh& mesh, const MeshDraft& draft, const MeshDraft::Set& 
 
 void insert_members(TetMesh& mesh, const MeshDraft& draft, const MeshDraft::Set& set) {
     const SetHandle s = made_set(mesh, draft, set);
-    for (Index member : set.members) {
-        switch (set.kind) {
-            case EntityKind::vertex:
-                mesh.insert(s, VertexHandle(member));
-                break;
-            case EntityKind::edge: {
+    switch (set.kind) {
+        case EntityKind::vertex:
+            mesh.insert(s, std::vector<VertexHandle>(set.members.begin(), set.members.end()));
+            break;
+        case EntityKind::edge:
+            for (Index member : set.members) {
                 const auto [cell, local_edge] = edge_place_of(mesh, draft.edges[member], set.name);
                 mesh.insert(s, cell, local_edge);
-                break;
             }
-            case EntityKind::face:
-                mesh.insert(s, halfface_of(mesh, draft.faces[member], set.name));
-                break;
-            case EntityKind::cell:
-                mesh.insert(s, CellHandle(member));
-                break;
-        }
+            break;
+        case EntityKind::face:
+            for (Index member : set.members) mesh.insert(s, halfface_of(mesh, draft.faces[member], set.name));
+            break;
+        case EntityKind::cell:
+            mesh.insert(s, std::vector<CellHandle>(set.members.begin(), set.members.end()));
+            break;
     }
 }
 

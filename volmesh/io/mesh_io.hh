@@ -7,6 +7,7 @@
 
 namespace maille::volmesh {
 
+/// What an extension leaves open.
 struct WriteOptions {
     /// Which of several formats the extension stands for: "msh41" or "msh22" for .msh; empty for the usual
     /// one.
@@ -28,9 +29,9 @@ struct WriteOptions {
 /// tetrahedra.
 TetMesh read_mesh(const std::filesystem::path& path);
 
-/// Writes the mesh with its sets, their rules (but in .mfem and .e) and, in .vtu and .msh, its properties of
-/// vertices and cells that are double, float, std::int32_t or Vector3d, with their rules; in .vtu also
-/// properties of edges, faces and the mesh (which may be a text). Functions of the user's are in no file.
+/// Writes the mesh with its sets, their rules and, in .vtu and .msh, its properties of vertices and cells that
+/// are double, float, std::int32_t or Vector3d, with their rules; in .vtu also properties of edges, faces and
+/// the mesh (which may be a text). Functions of the user's are in no file.
 /// Deleted entities are left out. The same mesh gives the same bytes.
 ///
 /// The formats of read_mesh and, for the boundary as a surface, .stl .obj .off .ply. The file is written

@@ -1,9 +1,10 @@
 // MFEM's text format, version 1.3, in which attributes have names. An element's attribute stands for the
 // combination of sets that it is in; those of no set have the attributes of a set of that name. All of the
-// boundary is there, and what else is in sets of faces. Sets of edges and vertices, for which MFEM has no
-// place, stand behind the end of its mesh.
+// boundary is there, and what else is in sets of faces. Sets of edges and vertices and rules of sets, for
+// which MFEM has no place, stand behind the end of its mesh.
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include <fmt/core.h>
 
@@ -12,8 +13,10 @@
 #include "volmesh/io/formats.hh"
 #include "volmesh/io/mesh_draft.hh"
 #include "volmesh/io/output_file.hh"
+#include "volmesh/io/rule_text.hh"
 #include "volmesh/io/set_elements.hh"
 #include "volmesh/io/text_scanner.hh"
+#include "volmesh/io/vtk_names.hh"
 
 namespace maille::volmesh::io {
 
@@ -41,6 +44,7 @@ class MfemReader {
     };
 
     bool has_read(std::string_view section);
+    std::string set_name();
     void read_vertices();
     template <std::size_t N>
     void read_elements(int geometry, std::vector<std::array<Index, N>>& elements, Attributes& attributes);
@@ -49,6 +53,7 @@ class MfemReader {
     void read_attribute_sets(Attributes& attributes);
     void read_edge_sets();
     void read_vertex_sets();
+    void read_rules();
     void make_sets(const Attributes& attributes, EntityKind kind);
     Index vertex();
 
@@ -56,6 +61,7 @@ class MfemReader {
     TextScanner text_;
     MeshDraft draft_;
     Attributes of_cells_, of_faces_;
+    std::vector<std::tuple<EntityKind, std::string, RuleDraft>> rules_;
 };
 
 MeshDraft MfemReader::read() {
@@ -71,6 +77,8 @@ MeshDraft MfemReader::read() {
     }
     make_sets(of_cells_, EntityKind::cell);
     make_sets(of_faces_, EntityKind::face);
+    for (const auto& [kind, name, rule] : rules_)
+        if (draft_.find_set(name, kind) != nullptr) draft_.set(name, kind).rule = rule;
     return std::move(draft_);
 }
 
@@ -91,6 +99,8 @@ bool MfemReader::has_read(std::string_view section) {
         read_edge_sets();
     } else if (section == "vertex_sets") {
         read_vertex_sets();
+    } else if (section == "set_rules") {
+        read_rules();
     } else if (section == "nodes") {
         text_.fail("curved meshes (with 'nodes') cannot be read: only linear tetrahedra can");
     } else if (section == "vertex_parents") {
@@ -112,12 +122,7 @@ void MfemReader::read_vertices() {
     if (text_.word("the dimension") != "3") text_.fail("vertices should have 3 coordinates, and stand here");
     if (!draft_.points.empty()) text_.fail("the vertices are there twice");
     draft_.points.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const double x = text_.coordinate();
-        const double y = text_.coordinate();
-        const double z = text_.coordinate();
-        draft_.points.emplace_back(x, y, z);
-    }
+    for (std::size_t i = 0; i < n; ++i) draft_.points.push_back(text_.point());
 }
 
 template <std::size_t N>
@@ -135,23 +140,25 @@ void MfemReader::read_elements(int geometry, std::vector<std::array<Index, N>>& 
     }
 }
 
-/// A number of lists; each has a name, in quotes or of one word, a number of items and the items.
+/// In quotes or of one word.
+std::string MfemReader::set_name() {
+    if (text_.at_end()) text_.fail("the file ends where a set should be");
+    if (text_.rest().front() != '"') return std::string(text_.word("the name of a set"));
+    text_.bytes(1);
+    const std::size_t end = text_.rest().find_first_of("\"\n");
+    if (end == std::string_view::npos || text_.rest()[end] == '\n')
+        text_.fail("the name of a set has no closing quote");
+    const std::string name(text_.bytes(end));
+    text_.bytes(1);
+    return name;
+}
+
+/// A number of lists; each has a name, a number of items and the items.
 template <class Each>
 void MfemReader::read_named_lists(std::size_t numbers_each, const Each& read_one) {
     const std::size_t n_sets = text_.count("the number of sets");
     for (std::size_t i = 0; i < n_sets; ++i) {
-        if (text_.at_end()) text_.fail("the file ends where a set should be");
-        std::string name;
-        if (text_.rest().front() == '"') {
-            text_.bytes(1);
-            const std::size_t end = text_.rest().find_first_of("\"\n");
-            if (end == std::string_view::npos || text_.rest()[end] == '\n')
-                text_.fail("the name of a set has no closing quote");
-            name = text_.bytes(end);
-            text_.bytes(1);
-        } else {
-            name = text_.word("the name of a set");
-        }
+        const std::string name = set_name();
         read_one(name, text_.count("the number of a set's members", 2 * numbers_each));
     }
 }
@@ -182,6 +189,22 @@ void MfemReader::read_vertex_sets() {
             if (members.back() >= draft_.points.size()) text_.fail("a set has a vertex that there is not");
         }
     });
+}
+
+/// A line each: kind, name and rule.
+void MfemReader::read_rules() {
+    const std::size_t n = text_.count("the number of rules", 8);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::string_view kind_word = text_.word("the kind of a set");
+        const std::string name = set_name();
+        const std::string_view rule = text_.line();
+        try {
+            const EntityKind kind = parse_kind(kind_word);
+            rules_.emplace_back(kind, name, parse_set_rule(rule, kind));
+        } catch (const InputError& error) {
+            text_.fail(error.what());
+        }
+    }
 }
 
 /// Attributes that no set names are groups without a name.
@@ -270,6 +293,18 @@ void write_member_sets(OutputFile& out, const TetMesh& mesh, const char* section
     }
 }
 
+void write_rules(OutputFile& out, const TetMesh& mesh) {
+    std::vector<std::string> lines;
+    for (const EntityKind kind : {EntityKind::cell, EntityKind::face, EntityKind::edge, EntityKind::vertex})
+        for (SetHandle set : sets_of_kind(mesh, kind))
+            if (const std::string rule = set_rule_text(mesh, mesh.set_info(set)); !rule.empty())
+                lines.push_back(
+                    fmt::format("{} {} {}", vtk::kind_name(kind), quoted(mesh.set_info(set).name), rule));
+    if (lines.empty()) return;
+    out << "\nset_rules\n" << lines.size() << '\n';
+    for (const std::string& line : lines) out << line << '\n';
+}
+
 }  // namespace
 
 TetMesh read_mfem(const Path& path) {
@@ -302,6 +337,7 @@ void write_mfem(const TetMesh& mesh, const Path& path) {
     const SetElements elements = set_elements(mesh);
     write_member_sets(out, mesh, "edge_sets", EntityKind::edge, elements.edges);
     write_member_sets(out, mesh, "vertex_sets", EntityKind::vertex, elements.vertices);
+    write_rules(out, mesh);
     out.commit();
 }
 

@@ -69,14 +69,14 @@ void read_element(Contents& contents, MshSource& source, std::int32_t type, std:
                   std::int32_t n_tags, RepeatedCells& repeated) {
     const Tags tags = read_tags(source, n_tags);
     const int n_vertices = n_nodes(source, type);
-    std::array<std::uint64_t, 4> nodes{};
-    for (int k = 0; k < n_vertices; ++k)
-        nodes[k] = static_cast<std::uint64_t>(source.integer("a node of an element"));
+    std::array<std::uint64_t, 5> numbers{number};
+    for (int k = 1; k <= n_vertices; ++k)
+        numbers[k] = static_cast<std::uint64_t>(source.integer("a node of an element"));
     std::span<const std::int32_t> groups(&tags.group, tags.group == 0 ? 0 : 1);
     if (const auto listed = contents.groups_of_entity.find({n_vertices - 1, tags.entity});
         listed != contents.groups_of_entity.end())
         groups = listed->second;
-    add_element(contents, source, type, number, std::span(nodes).first(n_vertices), groups);
+    add_elements(contents, source, type, std::span(numbers).first(1 + n_vertices), groups);
     if (type == tetrahedron) repeated.add(tags);
 }
 
@@ -88,10 +88,7 @@ void read_nodes22(Contents& contents, MshSource& source) {
     contents.draft.points.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         contents.nodes.push_back(static_cast<std::uint64_t>(source.integer("the number of a node")));
-        const double x = source.coordinate();
-        const double y = source.coordinate();
-        const double z = source.coordinate();
-        contents.draft.points.emplace_back(x, y, z);
+        contents.draft.points.push_back(source.point());
     }
     sort_nodes(contents, source);
 }

@@ -1,4 +1,5 @@
 // Sections of Gmsh's format 4.1, as its manual (section "MSH file format") has them.
+#include <algorithm>
 #include <array>
 
 #include <fmt/core.h>
@@ -58,12 +59,10 @@ void read_nodes41(Contents& contents, MshSource& source) {
         source.integer("the tag of an entity");
         const bool is_parametric = source.integer("0 or 1 for parametric nodes") != 0;
         const std::size_t n = source.count("the number of nodes", 4);
+        contents.draft.points.reserve(contents.draft.points.size() + n);
         for (std::size_t i = 0; i < n; ++i) contents.nodes.push_back(source.size("the number of a node"));
         for (std::size_t i = 0; i < n; ++i) {
-            const double x = source.coordinate();
-            const double y = source.coordinate();
-            const double z = source.coordinate();
-            contents.draft.points.emplace_back(x, y, z);
+            contents.draft.points.push_back(source.point());
             if (is_parametric)
                 for (int k = 0; k < dimension; ++k) source.real("a parameter");
         }
@@ -84,11 +83,12 @@ void read_elements41(Contents& contents, MshSource& source) {
         const auto groups = contents.groups_of_entity.find({dimension, entity});
         const std::span<const std::int32_t> of_block =
             groups == contents.groups_of_entity.end() ? std::span<const std::int32_t>() : groups->second;
-        std::array<std::uint64_t, 4> nodes{};
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::uint64_t number = source.size("the number of an element");
-            for (int k = 0; k < n_vertices; ++k) nodes[k] = source.size("a node of an element");
-            add_element(contents, source, type, number, std::span(nodes).first(n_vertices), of_block);
+        constexpr std::size_t batch = 1024;
+        std::vector<std::uint64_t> numbers;
+        for (std::size_t done = 0; done < n; done += batch) {
+            numbers.resize(std::min(batch, n - done) * (1 + n_vertices));
+            source.sizes(numbers, "the number of an element or of its node");
+            add_elements(contents, source, type, numbers, of_block);
         }
     }
     contents.cells.sort();

@@ -84,8 +84,14 @@ void write_elements(OutputFile& out, const std::vector<Block>& blocks, std::size
 void write_cell_order(OutputFile& out, const TetMesh& mesh, const std::vector<CellHandle>& elements) {
     const std::span cells(elements.data(), mesh.n_cells());
     if (std::ranges::is_sorted(cells)) return;
-    out << "$MailleCellOrder\n" << cells.size() << '\n';
-    for (CellHandle cell : cells) out << cell.idx() << '\n';
+    std::vector<std::pair<TetMesh::Index, TetMesh::Index>> runs;  // the first, and how many
+    for (CellHandle cell : cells) {
+        if (runs.empty() || cell.idx() != runs.back().first + runs.back().second)
+            runs.emplace_back(cell.idx(), 0);
+        ++runs.back().second;
+    }
+    out << "$MailleCellOrder\n" << runs.size() << '\n';
+    for (const auto& [first, length] : runs) out << first << ' ' << length << '\n';
     out << "$EndMailleCellOrder\n";
 }
 

@@ -32,7 +32,9 @@ struct Contents {
     /// By group: places in the draft's list of its kind.
     std::map<DimTag, std::vector<Index>> members;
     std::vector<std::pair<std::string, FieldType>> vertex_types, cell_types;
-    std::vector<Index> cell_order;
+    /// Where the cells of the file were in the mesh: the first of each run that follow each other, and how
+    /// many.
+    std::vector<std::pair<Index, Index>> cell_order;
     using Named = std::pair<std::string, EntityKind>;
     std::vector<std::pair<Named, RuleDraft>> set_rules;
     std::vector<std::pair<Named, PropertyRule>> property_rules;
@@ -44,9 +46,10 @@ enum ElementType : std::int32_t { line = 1, triangle = 2, tetrahedron = 4, point
 /// Number of nodes; throws InputError, naming the type, where it is none of the four above.
 int n_nodes(const MshSource& source, std::int32_t element_type);
 
-/// Puts an element, whose nodes are given by their numbers, in the lists of the draft and of its groups.
-void add_element(Contents& contents, const MshSource& source, std::int32_t type, std::uint64_t number,
-                 std::span<const std::uint64_t> nodes, std::span<const std::int32_t> groups);
+/// Puts elements in the lists of the draft and of their groups. Each is given by its number and those of its
+/// nodes, one after another.
+void add_elements(Contents& contents, const MshSource& source, std::int32_t type,
+                  std::span<const std::uint64_t> numbers, std::span<const std::int32_t> groups);
 
 /// Throws InputError where two nodes have the same number.
 void sort_nodes(Contents& contents, const MshSource& source);

@@ -1,6 +1,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -71,10 +72,13 @@ void read_groups_of_cells(Contents& contents, MshSource& source) {
     }
 }
 
-/// $MailleCellOrder: where each cell was in the mesh, in the order of the file.
+/// $MailleCellOrder: where the cells were in the mesh, in the order of the file, by runs.
 void read_cell_order(Contents& contents, MshSource& source) {
-    contents.cell_order.resize(source.text().count("the number of cells", 2));
-    for (Index& place : contents.cell_order) place = source.text().integer<Index>("the place of a cell");
+    contents.cell_order.resize(source.text().count("the number of runs", 4));
+    for (auto& [first, length] : contents.cell_order) {
+        first = source.text().integer<Index>("the place of a cell");
+        length = source.text().integer<Index>("the number of cells");
+    }
 }
 
 /// $MailleProperties: types of those fields that are not of doubles.
@@ -187,15 +191,22 @@ void set_types(Contents& contents) {
 
 /// Puts the cells back where they were in the mesh.
 void restore_cell_order(Contents& contents, const std::string& file) {
-    const std::vector<Index>& place = contents.cell_order;
-    if (place.empty()) return;
+    if (contents.cell_order.empty()) return;
     MeshDraft& draft = contents.draft;
-    std::vector<bool> is_taken(place.size());
-    for (Index p : place) {
-        if (place.size() != draft.cells.size() || p >= place.size() || is_taken[p])
-            throw InputError(file + ": $MailleCellOrder is not an order of the cells");
-        is_taken[p] = true;
+    const std::size_t n_cells = draft.cells.size();
+    std::vector<Index> place;
+    place.reserve(n_cells);
+    std::vector<std::uint8_t> is_taken(n_cells, 0);
+    bool is_order = true;
+    for (const auto& [first, length] : contents.cell_order) {
+        is_order = is_order && first <= n_cells && length <= n_cells - first;
+        for (Index p = first; is_order && p - first < length; ++p) {
+            is_order = std::exchange(is_taken[p], 1) == 0;
+            place.push_back(p);
+        }
     }
+    if (!is_order || place.size() != n_cells)
+        throw InputError(file + ": $MailleCellOrder is not an order of the cells");
     auto cells = draft.cells;
     for (Index i = 0; i < place.size(); ++i) cells[place[i]] = draft.cells[i];
     draft.cells = std::move(cells);
@@ -232,31 +243,37 @@ int n_nodes(const MshSource& source, std::int32_t element_type) {
     }
 }
 
-void add_element(Contents& contents, const MshSource& source, std::int32_t type, std::uint64_t number,
-                 std::span<const std::uint64_t> nodes, std::span<const std::int32_t> groups) {
+void add_elements(Contents& contents, const MshSource& source, std::int32_t type,
+                  std::span<const std::uint64_t> numbers, std::span<const std::int32_t> groups) {
     if (type != tetrahedron && groups.empty()) return;
-    std::array<Index, 4> v{};
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const auto vertex = contents.nodes.find(nodes[k]);
-        if (!vertex) source.fail(fmt::format("element {} has node {}, which there is not", number, nodes[k]));
-        v[k] = *vertex;
-    }
+    const auto n_vertices = static_cast<std::size_t>(n_nodes(source, type));
     MeshDraft& draft = contents.draft;
-    std::size_t place = v[0];
-    if (type == tetrahedron) {
-        place = draft.cells.size();
-        draft.cells.push_back(v);
-        contents.cells.push_back(number);
-    } else if (type == triangle) {
-        place = draft.faces.size();
-        draft.faces.push_back({v[0], v[1], v[2]});
-    } else if (type == line) {
-        place = draft.edges.size();
-        draft.edges.push_back({v[0], v[1]});
-    }
-    const auto dimension = static_cast<std::int32_t>(nodes.size()) - 1;
+    std::vector<std::vector<Index>*> members;
     for (std::int32_t group : groups)
-        contents.members[{dimension, std::abs(group)}].push_back(static_cast<Index>(place));
+        members.push_back(&contents.members[{static_cast<std::int32_t>(n_vertices) - 1, std::abs(group)}]);
+    for (std::size_t at = 0; at < numbers.size(); at += 1 + n_vertices) {
+        std::array<Index, 4> v{};
+        for (std::size_t k = 0; k < n_vertices; ++k) {
+            const std::uint64_t node = numbers[at + 1 + k];
+            const auto vertex = contents.nodes.find(node);
+            if (!vertex)
+                source.fail(fmt::format("element {} has node {}, which there is not", numbers[at], node));
+            v[k] = *vertex;
+        }
+        std::size_t place = v[0];
+        if (type == tetrahedron) {
+            place = draft.cells.size();
+            draft.cells.push_back(v);
+            contents.cells.push_back(numbers[at]);
+        } else if (type == triangle) {
+            place = draft.faces.size();
+            draft.faces.push_back({v[0], v[1], v[2]});
+        } else if (type == line) {
+            place = draft.edges.size();
+            draft.edges.push_back({v[0], v[1]});
+        }
+        for (auto* of_group : members) of_group->push_back(static_cast<Index>(place));
+    }
 }
 
 void sort_nodes(Contents& contents, const MshSource& source) {

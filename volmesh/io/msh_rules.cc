@@ -19,12 +19,6 @@ bool is_usual(const Field& field) {
     return !field.rule || *field.rule == (is_interpolated ? PropertyRule::interpolate : PropertyRule::copy);
 }
 
-EntityKind read_kind(TextScanner& text) {
-    const auto kind = std::ranges::find(vtk::kind_names, text.word("a kind"));
-    if (kind == vtk::kind_names.end()) text.fail("there is no such kind of set or property");
-    return static_cast<EntityKind>(kind - vtk::kind_names.begin());
-}
-
 }  // namespace
 
 void write_rules(OutputFile& out, const TetMesh& mesh, const std::vector<Field>& fields) {
@@ -49,13 +43,14 @@ void read_rules(Contents& contents, MshSource& source) {
     const std::size_t n = text.count("the number of rules", 8);
     for (std::size_t i = 0; i < n; ++i) {
         const std::string_view what = text.word("set or property");
-        const EntityKind kind = read_kind(text);
+        const std::string_view kind_word = text.word("a kind");
         const std::string_view line = text.line();
         const std::size_t end = line.rfind('"');
         if (!line.starts_with('"') || end == 0) text.fail("a name in quotes should stand here");
         const std::string name(line.substr(1, end - 1));
         const std::string_view rule = line.substr(std::min(end + 2, line.size()));
         try {
+            const EntityKind kind = parse_kind(kind_word);
             if (what == "set")
                 contents.set_rules.push_back({{name, kind}, parse_set_rule(rule, kind)});
             else

@@ -1,5 +1,6 @@
 #include "volmesh/io/msh_source.hh"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -21,15 +22,24 @@ MshSource::MshSource(const InputFile& file) : text_(file) {
     is_binary_ = is_binary;
 }
 
+void MshSource::sizes(std::span<std::uint64_t> numbers, const char* what) {
+    if (is_binary_) {
+        std::memcpy(numbers.data(), text_.bytes(numbers.size_bytes()).data(), numbers.size_bytes());
+    } else {
+        for (std::uint64_t& number : numbers) number = size(what);
+    }
+}
+
 double MshSource::real(const char* what) {
     return is_binary_ ? raw<double>() : text_.real(what);
 }
 
-double MshSource::coordinate() {
-    if (!is_binary_) return text_.coordinate();
-    const double value = raw<double>();
-    if (!std::isfinite(value)) fail("a coordinate is not a finite number");
-    return value;
+Eigen::Vector3d MshSource::point() {
+    if (!is_binary_) return text_.point();
+    const auto p = raw<std::array<double, 3>>();
+    for (double x : p)
+        if (!std::isfinite(x)) fail("a coordinate is not a finite number");
+    return {p[0], p[1], p[2]};
 }
 
 std::size_t MshSource::count(const char* what, std::size_t numbers_each) {

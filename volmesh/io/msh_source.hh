@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "volmesh/io/text_scanner.hh"
@@ -19,8 +20,11 @@ class MshSource {
 
     std::int32_t integer(const char* what) { return number<std::int32_t>(what); }
     std::uint64_t size(const char* what) { return number<std::uint64_t>(what); }
+    /// As many as there is place for.
+    void sizes(std::span<std::uint64_t> numbers, const char* what);
     double real(const char* what);
-    double coordinate();
+    /// Finite coordinates.
+    Eigen::Vector3d point();
     /// A number of items that the rest of the file can hold, if each has that many numbers (of at least 4
     /// bytes).
     std::size_t count(const char* what, std::size_t numbers_each);

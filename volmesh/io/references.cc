@@ -46,8 +46,13 @@ std::vector<NamedReferences> parse_sidecar(const InputFile& file, const MeshDraf
             const auto kind = std::ranges::find(kind_names, set.at("kind").get<std::string>());
             if (kind == kind_names.end()) throw InputError(file.name() + ": has a set of an unknown kind");
             NamedReferences& named = sets.emplace_back();
-            named = {set.at("name"), static_cast<EntityKind>(kind - kind_names.begin()),
-                     set.at("references")};
+            named = {set.at("name"), static_cast<EntityKind>(kind - kind_names.begin()), {}};
+            for (const auto& reference : set.at("references")) {
+                if (!reference.is_number_integer())
+                    throw InputError(fmt::format("{}: set '{}' has a reference that is no whole number",
+                                                 file.name(), named.name));
+                named.references.push_back(reference.get<long long>());
+            }
             if (set.contains("rule")) named.rule = parse_rule(file, set.at("rule"), named.kind);
         }
     } catch (const nlohmann::json::exception& error) {

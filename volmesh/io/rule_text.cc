@@ -46,10 +46,14 @@ std::string set_rule_text(const TetMesh& mesh, const SetInfo& set) {
     return text;
 }
 
+EntityKind parse_kind(std::string_view word) {
+    return static_cast<EntityKind>(place_of(vtk::kind_names, word, "kind of set"));
+}
+
 RuleDraft parse_set_rule(std::string_view text, EntityKind kind) {
     RuleDraft rule{static_cast<SetRule::Kind>(place_of(set_rules, take(text, " of "), "rule of sets"))};
     if (!text.empty()) {
-        const auto of = static_cast<EntityKind>(place_of(vtk::kind_names, take(text, " "), "kind of set"));
+        const EntityKind of = parse_kind(take(text, " "));
         rule.source = {of, std::string(text)};
     }
     const bool is_from = rule.kind == SetRule::Kind::from_edges || rule.kind == SetRule::Kind::from_faces;

@@ -21,6 +21,8 @@ struct RuleDraft {
 /// No words for what a reader takes anyway, the default of the kind, nor for functions of the user's, which
 /// no file can hold.
 std::string set_rule_text(const TetMesh& mesh, const SetInfo& set);
+/// "vertex", "edge", "face" or "cell". Throws InputError for other words.
+EntityKind parse_kind(std::string_view word);
 /// Throws InputError where the words mean nothing, or no rule for sets of that kind.
 RuleDraft parse_set_rule(std::string_view text, EntityKind kind);
 

@@ -13,13 +13,13 @@ bool has_sets_of(const TetMesh& mesh, EntityKind kind) {
 }
 
 std::vector<SetElement<1>> vertex_elements(const TetMesh& mesh) {
+    std::vector<CellHandle> lowest_cell(mesh.n_vertices());
+    for (TetMesh::Index c = mesh.n_cells(); c-- > 0;)
+        for (VertexHandle v : mesh.cell_vertices(CellHandle(c))) lowest_cell[v.idx()] = CellHandle(c);
     std::vector<SetElement<1>> elements;
-    for (TetMesh::Index v = 0; v < mesh.n_vertices(); ++v) {
-        const CombinationId combination = mesh.combination(VertexHandle(v));
-        if (combination == 0) continue;
-        const CellList cells = mesh.vc_range(VertexHandle(v));
-        elements.push_back({{v}, combination, cells.empty() ? CellHandle() : std::ranges::min(cells)});
-    }
+    for (TetMesh::Index v = 0; v < mesh.n_vertices(); ++v)
+        if (const CombinationId combination = mesh.combination(VertexHandle(v)); combination != 0)
+            elements.push_back({{v}, combination, lowest_cell[v]});
     return elements;
 }
 

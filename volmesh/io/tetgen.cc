@@ -78,10 +78,7 @@ void TetgenReader::read_nodes() {
         if ((first_number_ != 0 && first_number_ != 1) ||
             number != first_number_ + static_cast<std::int64_t>(i))
             text.fail("nodes should be numbered from 0 or 1 on");
-        const double x = text.coordinate();
-        const double y = text.coordinate();
-        const double z = text.coordinate();
-        draft_.points.emplace_back(x, y, z);
+        draft_.points.push_back(text.point());
         for (std::size_t k = 0; k < n_attributes && !text.at_end_of_line(); ++k) text.real("an attribute");
         if (has_marker) references_.add(EntityKind::vertex, marker(text), static_cast<Index>(i));
         text.line();

@@ -82,6 +82,12 @@ double TextScanner::coordinate() {
     return value;
 }
 
+Eigen::Vector3d TextScanner::point() {
+    Eigen::Vector3d p;
+    for (double& x : p) x = coordinate();
+    return p;
+}
+
 std::size_t TextScanner::checked(std::size_t count, const char* what, std::size_t bytes_each) const {
     if (count > n_left() / bytes_each)
         fail(fmt::format("{} is said to be {}, more than the rest of the file can hold", what, count));

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include <Eigen/Core>
+
 #include "volmesh/io/input_file.hh"
 
 namespace maille::volmesh::io {
@@ -33,6 +35,8 @@ class TextScanner {
     double real(const char* what);
     /// A finite number.
     double coordinate();
+    /// Three of them.
+    Eigen::Vector3d point();
     /// A number of items, each of at least that many bytes, that the rest of the file can hold.
     std::size_t count(const char* what, std::size_t bytes_each = 2) {
         return checked(integer<std::size_t>(what), what, bytes_each);

@@ -48,7 +48,7 @@ class VtuFile {
     /// Parses all but the appended arrays, which are not XML.
     void parse();
     void find_appended(std::size_t tag);
-    std::string encoded_bytes(pugi::xml_node node) const;
+    vtk::Bytes decoded_bytes(pugi::xml_node node) const;
 
     InputFile file_;
     pugi::xml_document document_;
@@ -110,7 +110,7 @@ std::size_t VtuFile::count(const char* attribute) const {
     return n;
 }
 
-std::string VtuFile::encoded_bytes(pugi::xml_node node) const {
+vtk::Bytes VtuFile::decoded_bytes(pugi::xml_node node) const {
     if (std::string_view(node.attribute("format").value()) != "appended") {
         std::string_view text = node.child_value();
         text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -122,10 +122,14 @@ std::string VtuFile::encoded_bytes(pugi::xml_node node) const {
 }
 
 VtuFile::Array VtuFile::array(pugi::xml_node node) const {
-    Array array{{node.attribute("type").value(), false, {}}, 1};
+    Array array{{node.attribute("type").value()}, 1};
     array.n_components = std::max(1U, node.attribute("NumberOfComponents").as_uint(1));
     array.numbers.is_text = std::string_view(node.attribute("format").as_string("ascii")) == "ascii";
-    array.numbers.bytes = array.numbers.is_text ? node.child_value() : encoded_bytes(node);
+    if (array.numbers.is_text) {
+        array.numbers.text = node.child_value();
+    } else {
+        array.numbers.bytes = decoded_bytes(node);
+    }
     return array;
 }
 
@@ -158,15 +162,18 @@ class VtuReader {
         }
     }
 
-    std::vector<std::int64_t> integers(const char* name, std::size_t n);
+    /// Calls the action on the array of that name among those of the cells.
+    template <class Action>
+    void with_cell_array(const char* name, const Action& action);
     void read_points();
     void read_cells();
-    void add_cell(std::int64_t type, std::span<const std::int64_t> vertices);
+    void add_cell(std::uint32_t type, std::span<const Index> vertices);
     void read_point_data(pugi::xml_node node);
     void read_cell_data(pugi::xml_node node);
     void read_field_data(pugi::xml_node node);
     void read_mesh_value(const std::string& name, const VtuFile::Array& array);
     bool read_set(pugi::xml_node node, const VtuFile::Array& array);
+    void require_value_each(std::size_t n) const;
     void add_members(const std::string& name, EntityKind kind, const std::vector<Index>& members);
     void read_groups(const std::vector<std::int64_t>& groups);
     void add_field(pugi::xml_node node, EntityKind kind, const VtuFile::Array& array,
@@ -179,14 +186,11 @@ class VtuReader {
     std::vector<std::pair<EntityKind, Index>> places_;
 };
 
-std::vector<std::int64_t> VtuReader::integers(const char* name, std::size_t n) {
+template <class Action>
+void VtuReader::with_cell_array(const char* name, const Action& action) {
     const auto node = file_.piece().child("Cells").find_child_by_attribute("DataArray", "Name", name);
     if (!node) file_.fail(fmt::format("has no array '{}'", name));
-    std::vector<std::int64_t> values;
-    with_array(node, [&](const VtuFile::Array& array) { values = array.numbers.as_integers(); });
-    if (values.size() < n)
-        file_.fail_at(node, fmt::format("array '{}' has {} values instead of {}", name, values.size(), n));
-    return values;
+    with_array(node, action);
 }
 
 void VtuReader::read_points() {
@@ -198,6 +202,7 @@ void VtuReader::read_points() {
             throw InputError(fmt::format("{} coordinates for {} points", values.size(), n_points_));
         if (!std::ranges::all_of(values, [](double x) { return std::isfinite(x); }))
             throw InputError("a coordinate is not a finite number");
+        draft_.points.reserve(n_points_);
         for (std::size_t i = 0; i < values.size(); i += 3)
             draft_.points.emplace_back(values[i], values[i + 1], values[i + 2]);
     });
@@ -205,10 +210,23 @@ void VtuReader::read_points() {
 
 void VtuReader::read_cells() {
     if (n_cells_ == 0) return;
-    const auto connectivity = integers("connectivity", 0);
-    const auto offsets = integers("offsets", n_cells_);
-    const auto types = integers("types", n_cells_);
+    std::vector<Index> connectivity, types;
+    std::vector<std::int64_t> offsets;
+    const auto require_all = [&](std::size_t n) {
+        if (n < n_cells_) throw InputError(fmt::format("has {} values instead of {}", n, n_cells_));
+    };
+    with_cell_array("types", [&](const VtuFile::Array& array) {
+        types = array.numbers.as_indices();
+        require_all(types.size());
+    });
+    with_cell_array("offsets", [&](const VtuFile::Array& array) {
+        offsets = array.numbers.as_integers();
+        require_all(offsets.size());
+    });
+    with_cell_array("connectivity",
+                    [&](const VtuFile::Array& array) { connectivity = array.numbers.as_indices(); });
     places_.reserve(n_cells_);
+    draft_.cells.reserve(std::min(n_cells_, connectivity.size() / 4));
     std::int64_t begin = 0;
     for (std::size_t i = 0; i < n_cells_; ++i) {
         if (offsets[i] < begin || offsets[i] > static_cast<std::int64_t>(connectivity.size()))
@@ -219,7 +237,7 @@ void VtuReader::read_cells() {
 }
 
 /// What a type of cell is called, for messages.
-const char* name_of_type(std::int64_t type) {
+const char* name_of_type(std::uint32_t type) {
     switch (type) {
         case 4:
             return "polyline";
@@ -252,8 +270,8 @@ const char* name_of_type(std::int64_t type) {
     }
 }
 
-void VtuReader::add_cell(std::int64_t type, std::span<const std::int64_t> vertices) {
-    const int n = 0 <= type && type <= 255 ? vtk::n_vertices(static_cast<std::uint8_t>(type)) : 0;
+void VtuReader::add_cell(std::uint32_t type, std::span<const Index> vertices) {
+    const int n = type <= 255 ? vtk::n_vertices(static_cast<std::uint8_t>(type)) : 0;
     if (n == 0)
         file_.fail(fmt::format(
             "cell {} is of type {} (VTK's number {}), which cannot be read: only linear tetrahedra and "
@@ -263,10 +281,12 @@ void VtuReader::add_cell(std::int64_t type, std::span<const std::int64_t> vertic
         file_.fail(fmt::format("cell {} has {} vertices instead of {}", places_.size(), vertices.size(), n));
     std::array<Index, 4> v{};
     for (int k = 0; k < n; ++k) {
-        if (vertices[k] < 0 || vertices[k] >= static_cast<std::int64_t>(n_points_))
-            file_.fail(fmt::format("cell {} has vertex {}, but there are {} vertices", places_.size(),
-                                   vertices[k], n_points_));
-        v[k] = static_cast<Index>(vertices[k]);
+        if (vertices[k] >= n_points_)
+            file_.fail(fmt::format("cell {} has {}, but there are {} vertices", places_.size(),
+                                   vertices[k] == TetMesh::none ? "a negative or too large vertex"
+                                                                : fmt::format("vertex {}", vertices[k]),
+                                   n_points_));
+        v[k] = vertices[k];
     }
     const auto place = [&](EntityKind kind, std::size_t i) {
         places_.emplace_back(kind, static_cast<Index>(i));
@@ -302,7 +322,7 @@ void VtuReader::add_field(pugi::xml_node node, EntityKind kind, const VtuFile::A
     Field& field = draft_.fields.back();
     if (const auto rule = node.attribute("rule")) field.rule = parse_property_rule(rule.value());
     if (const auto text = node.attribute("default"))
-        field.default_value = vtk::Numbers{"Float64", true, text.value()}.as_reals();
+        field.default_value = vtk::Numbers{"Float64", true, text.value(), {}}.as_reals();
 }
 
 void VtuReader::read_point_data(pugi::xml_node node) {
@@ -321,9 +341,10 @@ void VtuReader::read_cell_data(pugi::xml_node node) {
         if (array.n_components == 1 && read_set(node, array)) return;
         const std::vector<double> all = array.numbers.as_reals();
         const std::size_t n = array.n_components;
+        std::vector<double> values;
         if (all.size() != n_cells_ * n)
             throw InputError(fmt::format("{} values for {} cells", all.size(), n_cells_));
-        std::vector<double> values;
+        values.reserve(all.size());
         for (std::size_t i = 0; i < n_cells_; ++i)
             if (places_[i].first == EntityKind::cell)
                 values.insert(values.end(), &all[i * n], &all[i * n] + n);
@@ -368,6 +389,24 @@ void VtuReader::read_mesh_value(const std::string& name, const VtuFile::Array& a
     }
 }
 
+void VtuReader::require_value_each(std::size_t n) const {
+    if (n != n_cells_) throw InputError(fmt::format("{} values for {} cells", n, n_cells_));
+}
+
+/// Calls the action for the place of each flag that is not 0. Most sets have few members.
+template <class Action>
+void for_each_flag(const std::vector<std::uint8_t>& flags, const Action& action) {
+    constexpr std::size_t step = 64;
+    for (std::size_t begin = 0; begin < flags.size(); begin += step) {
+        const std::size_t end = std::min(begin + step, flags.size());
+        std::uint8_t any = 0;
+        for (std::size_t i = begin; i < end; ++i) any |= flags[i];
+        if (any == 0) continue;
+        for (std::size_t i = begin; i < end; ++i)
+            if (flags[i] != 0) action(i);
+    }
+}
+
 /// Whether the array tells sets: ours by its attribute, others' if it has only 0 and 1 in bytes; or meshio's
 /// groups.
 bool VtuReader::read_set(pugi::xml_node node, const VtuFile::Array& array) {
@@ -376,18 +415,17 @@ bool VtuReader::read_set(pugi::xml_node node, const VtuFile::Array& array) {
     const bool is_of_groups = name == "gmsh:physical";
     if (!kinds && !is_of_groups && array.numbers.type != "UInt8" && array.numbers.type != "Int8")
         return false;
-    const std::vector<std::int64_t> flags = array.numbers.as_integers();
-    if (flags.size() != n_cells_)
-        throw InputError(fmt::format("{} values for {} cells", flags.size(), n_cells_));
-    if (is_of_groups && !kinds) {
-        read_groups(flags);
-        return true;
+    if (!kinds) {
+        const std::vector<std::int64_t> values = array.numbers.as_integers();
+        require_value_each(values.size());
+        if (is_of_groups) {
+            read_groups(values);
+            return true;
+        }
+        if (!std::ranges::all_of(values, [](std::int64_t value) { return value == 0 || value == 1; }))
+            return false;
+        if (std::ranges::find(values, 1) == values.end()) draft_.set(name, EntityKind::cell);
     }
-    if (!kinds && !std::ranges::all_of(flags, [](std::int64_t flag) { return flag == 0 || flag == 1; }))
-        return false;
-
-    if (!kinds && std::ranges::count(flags, 0) == static_cast<std::ptrdiff_t>(n_cells_))
-        draft_.set(name, EntityKind::cell);
     std::istringstream words(kinds.as_string(""));
     for (std::string word; words >> word;) {
         const auto kind = std::ranges::find(vtk::kind_names, word);
@@ -398,9 +436,12 @@ bool VtuReader::read_set(pugi::xml_node node, const VtuFile::Array& array) {
         if (const auto rule = node.attribute(vtk::rule_attribute(kind_of_set).c_str()))
             set.rule = parse_set_rule(rule.value(), kind_of_set);
     }
+    const std::vector<std::uint8_t> flags = array.numbers.as_flags();
+    require_value_each(flags.size());
     std::array<std::vector<Index>, 4> members;
-    for (std::size_t i = 0; i < n_cells_; ++i)
-        if (flags[i] != 0) members[static_cast<std::size_t>(places_[i].first)].push_back(places_[i].second);
+    for_each_flag(flags, [&](std::size_t i) {
+        members[static_cast<std::size_t>(places_[i].first)].push_back(places_[i].second);
+    });
     for (std::size_t kind = 0; kind < 4; ++kind)
         add_members(name, static_cast<EntityKind>(kind), members[kind]);
     return true;

@@ -63,7 +63,7 @@ class VtuTree {
         OutputFile out(path);
         out << std::string_view(head).substr(0, head.rfind("</VTKFile>"));
         out << "  <AppendedData encoding=\"raw\">\n   _";
-        for (const std::string& array : arrays_) out << array;
+        for (const std::string& part : parts_) out << part;
         out << "\n  </AppendedData>\n</VTKFile>\n";
         out.commit();
     }
@@ -78,15 +78,17 @@ class VtuTree {
         if (n_components > 1) array.append_attribute("NumberOfComponents") = n_components;
         array.append_attribute("format") = "appended";
         array.append_attribute("offset") = static_cast<unsigned long long>(offset_);
-        arrays_.push_back(
-            vtk::compressed({reinterpret_cast<const char*>(values.data()), values.size_bytes()}));
-        offset_ += arrays_.back().size();
+        for (std::string& part :
+             vtk::compressed({reinterpret_cast<const char*>(values.data()), values.size_bytes()})) {
+            offset_ += part.size();
+            parts_.push_back(std::move(part));
+        }
         return array;
     }
 
     pugi::xml_document document_;
     pugi::xml_node grid_, piece_;
-    std::vector<std::string> arrays_;
+    std::vector<std::string> parts_;  ///< of what is appended
     std::size_t offset_ = 0;
 };
 
@@ -184,7 +186,24 @@ void add_mesh_value(VtuTree& tree, const MeshValue& property) {
         property.value);
 }
 
-/// For each combination whether it has a set of that name, of whatever kind.
+/// Entities one after another that are in the same sets.
+struct Run {
+    CombinationId combination;
+    std::size_t length;
+};
+
+std::vector<Run> runs_of_combinations(const TetMesh& mesh, const LowerCells& lower) {
+    std::vector<Run> runs;
+    const auto add = [&](CombinationId combination) {
+        if (runs.empty() || runs.back().combination != combination) runs.push_back({combination, 0});
+        ++runs.back().length;
+    };
+    for (TetMesh::Index c = 0; c < mesh.n_cells(); ++c) add(mesh.combination(CellHandle(c)));
+    for (CombinationId combination : lower.combinations) add(combination);
+    return runs;
+}
+
+/// For each combination whether it has one of the sets.
 std::vector<std::uint8_t> combinations_in(const TetMesh& mesh, const std::vector<SetHandle>& sets,
                                           CombinationId n_combinations) {
     std::vector<std::uint8_t> is_in(n_combinations, 0);
@@ -203,16 +222,16 @@ void add_sets(VtuTree& tree, const TetMesh& mesh, const LowerCells& lower) {
         if (sets.empty()) names.push_back(name);
         sets.emplace_back(s);
     }
-    std::vector<CombinationId> combinations(mesh.n_cells());
-    for (TetMesh::Index c = 0; c < mesh.n_cells(); ++c) combinations[c] = mesh.combination(CellHandle(c));
-    combinations.insert(combinations.end(), lower.combinations.begin(), lower.combinations.end());
-    const CombinationId n_combinations = combinations.empty() ? 0 : std::ranges::max(combinations) + 1;
+    const std::vector<Run> runs = runs_of_combinations(mesh, lower);
+    CombinationId n_combinations = 0;
+    for (const Run& run : runs) n_combinations = std::max(n_combinations, run.combination + 1);
 
+    std::vector<std::uint8_t> flags(mesh.n_cells() + lower.types.size());
     for (const std::string& name : names) {
         const std::vector<SetHandle>& sets = sets_by_name[name];
         const auto is_in = combinations_in(mesh, sets, n_combinations);
-        std::vector<std::uint8_t> flags(combinations.size());
-        std::ranges::transform(combinations, flags.begin(), [&](CombinationId id) { return is_in[id]; });
+        auto at = flags.begin();
+        for (const Run& run : runs) at = std::fill_n(at, run.length, is_in[run.combination]);
         std::string kinds;
         for (SetHandle set : sets)
             kinds += (kinds.empty() ? "" : " ") + std::string(vtk::kind_name(mesh.set_info(set).kind));
