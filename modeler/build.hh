@@ -6,6 +6,7 @@
 
 namespace maille::modeler {
 
+/// How to build.
 struct BuildOptions {
     /// Wanted edge length of primitives that have none of their own; 0: a twentieth of the model's diagonal.
     double size = 0;

@@ -7,13 +7,14 @@
 
 namespace maille::modeler {
 
+/// What is done with the children; a leaf is a primitive.
 enum class Operation : std::uint8_t { leaf, join, intersection, difference, fragment };
 
 /// A boolean expression over numbered primitives. `join` is the union.
 struct CsgTree {
-    Operation operation = Operation::join;
-    std::uint32_t primitive = 0;      ///< leaf only
-    std::vector<CsgTree> children{};  ///< every other operation
+    Operation operation = Operation::join;  ///< of all children
+    std::uint32_t primitive = 0;            ///< leaf only
+    std::vector<CsgTree> children{};        ///< every other operation
 };
 
 /// The primitive that owns a place, or nothing where the place is outside the solid.

@@ -8,6 +8,7 @@
 
 namespace maille::modeler {
 
+/// How to merge.
 struct MergeOptions {
     /// Wanted edge length of new cells; 0: the mean length of the edges on the surfaces that they fill.
     double size = 0;

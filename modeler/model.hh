@@ -24,14 +24,14 @@ enum class Facets : std::uint8_t {
 
 /// A constructive solid: primitives, and the tree that combines them.
 struct Model {
-    std::vector<Primitive> primitives;
-    CsgTree tree;
+    std::vector<Primitive> primitives;  ///< the leaves, by number
+    CsgTree tree;                       ///< how they are combined
 };
 
 /// A smooth surface of the model: a face of one of its primitives.
 struct ModelSurface {
-    std::uint32_t primitive;
-    std::uint32_t face;
+    std::uint32_t primitive;  ///< number in the model
+    std::uint32_t face;       ///< number in the primitive
     std::string name;  ///< the face set of the boundary faces that lie on it: "<primitive>/<face>", or given
 };
 
@@ -47,16 +47,16 @@ Eigen::AlignedBox3d bounding_box(const Model& model);
 /// set has the surface's name with this after it.
 inline constexpr std::string_view inner_suffix = "/inner";
 
-/// Reads a model file: Netgen's CSG where it ends in .geo (`facets` does not matter then), else OpenSCAD's dump
-/// with the language's own additions. Throws InputError with file, line and column on anything that it cannot
-/// use.
+/// Reads a model file: Netgen's CSG where it ends in .geo (`facets` does not matter then), else OpenSCAD's
+/// dump with the language's own additions. Throws InputError with file, line and column on anything that it
+/// cannot use.
 Model read_model(const std::filesystem::path& path, Facets facets = Facets::automatic);
 
 /// OpenSCAD's dump from memory; `name` stands for the file in messages.
 Model parse_model(std::string_view text, const std::string& name, Facets facets = Facets::automatic);
 
-/// Netgen's CSG (`algebraic3d`) from memory. One part of the mesh for each top-level object, which is called by
-/// its name and has its material.
+/// Netgen's CSG (`algebraic3d`) from memory. One part of the mesh for each top-level object, which is called
+/// by its name and has its material.
 Model parse_geo_model(std::string_view text, const std::string& name);
 
 /// The point nearest to p that lies on all the surfaces given by number, as volmesh::Projector has it. It

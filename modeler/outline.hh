@@ -9,7 +9,9 @@
 
 namespace maille::modeler {
 
+/// A place in the plane.
 using Point2 = Eigen::Vector2d;
+/// A closed polygon by its corners.
 using PlaneLoop = std::vector<Point2>;
 
 /// A connected piece of the plane: its outline, counter-clockwise, then its holes, clockwise.
@@ -28,12 +30,14 @@ Outline combine(Operation operation, std::span<const Outline> shapes);
 /// Affine image; the map must not be singular.
 Outline transformed(Outline shape, const Eigen::Affine2d& map);
 
+/// What becomes of convex corners.
 enum class OffsetCorners { round, mitred, chamfered };
 
 /// The shape grown by `distance`, or shrunk where that is negative. Round corners have facets whose middles
 /// are at most `arc_tolerance` inside the true arc.
 Outline offset(const Outline& shape, double distance, OffsetCorners corners, double arc_tolerance);
 
+/// The smallest convex shape around all of them.
 Outline convex_hull(std::span<const Outline> shapes);
 
 }  // namespace maille::modeler

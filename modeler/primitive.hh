@@ -11,13 +11,14 @@
 
 namespace maille::modeler {
 
+/// A place, in the unit of length that the user chose.
 using Point = Eigen::Vector3d;
 
 /// A smooth surface that bounds a primitive. Several may bear one name: the facets of a `side` that stays
 /// polyhedral, for example.
 struct PrimitiveFace {
-    std::string name;  ///< "x-", "side", "surface", "face3", ...
-    bool planar = false;
+    std::string name;     ///< "x-", "side", "surface", "face3", ...
+    bool planar = false;  ///< whether it lies in a plane
 };
 
 /// The shape of a primitive in space: immutable, any affine image of a standard solid. Thread-safe.
@@ -25,7 +26,9 @@ class Shape {
   public:
     virtual ~Shape() = default;
 
+    /// All that bounds it; their places are the numbers below.
     virtual std::span<const PrimitiveFace> faces() const = 0;
+    /// In space, as tight as is easily told.
     virtual Eigen::AlignedBox3d bounding_box() const = 0;
 
     /// Negative inside, zero on the boundary, positive outside; grows about as the distance does near the
@@ -45,15 +48,16 @@ class Shape {
     /// not count: there it is the curvature of the rim.
     virtual double max_curvature(std::uint32_t face) const = 0;
 
+    /// Whether the point is inside or on the boundary.
     bool contains(const Point& p) const { return implicit(p) <= 0; }
 };
 
 /// A named solid of the model, a leaf of its tree. A cheap value: copies share the shape.
 struct Primitive {
-    std::shared_ptr<const Shape> shape;
-    std::string name;      ///< given, or "cube1", "sphere2", ...
-    std::string material;  ///< empty where none was given
-    double size = 0;       ///< wanted edge length; 0 where none was given
+    std::shared_ptr<const Shape> shape;  ///< where it is and how it is bounded
+    std::string name;                    ///< given, or "cube1", "sphere2", ...
+    std::string material;                ///< empty where none was given
+    double size = 0;                     ///< wanted edge length; 0 where none was given
     /// What the surfaces of its faces are called; "<name>/<face>" where none are given.
     std::vector<std::string> surface_names{};
     /// By surface number in the model: the face set of the boundary faces of its own cells that lie there,

@@ -59,7 +59,7 @@ std::shared_ptr<const Shape> make_tetrahedron(const std::array<Point, 4>& points
 /// any further loops are holes, clockwise.
 struct PolyhedronFace {
     std::vector<std::vector<std::uint32_t>> loops;  ///< indices of points
-    std::string name;
+    std::string name;                               ///< of the surface
 };
 
 /// A closed polyhedron, convex or not. Each edge belongs to exactly two faces; those that are inside out are

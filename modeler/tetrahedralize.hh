@@ -14,6 +14,7 @@
 
 namespace maille::modeler {
 
+/// How to fill a solid.
 struct TetrahedralizeOptions {
     /// Seconds of processor time that one run of TetGen may take, a third of it after each that took longer;
     /// 0: by the expected number of cells.

@@ -11,6 +11,7 @@
 
 namespace maille::quality {
 
+/// The measures of a cell, after the functions of measures.hh.
 enum class Measure : std::uint8_t {
     beta,
     sigma,
@@ -34,14 +35,16 @@ enum class Measure : std::uint8_t {
 /// and its value for the regular tetrahedron (for phi: of the wanted size). Values beyond the ends are
 /// counted in the first and in the last bin.
 struct MeasureInfo {
-    Measure measure;
-    std::string_view name;
-    double low, high;
-    std::uint32_t bins;
-    double best;
-    std::string_view unit;
+    Measure measure;        ///< which
+    std::string_view name;  ///< that of its function
+    double low;             ///< where the first bin begins
+    double high;            ///< where the last bin ends
+    std::uint32_t bins;     ///< of the histogram
+    double best;            ///< for the regular tetrahedron
+    std::string_view unit;  ///< of angles; else empty
 };
 
+/// By Measure.
 inline constexpr std::array<MeasureInfo, 16> measure_infos{{
     {Measure::beta, "beta", 0, 1, 20, 1, ""},
     {Measure::sigma, "sigma", 0, 1, 20, 1, ""},
@@ -69,11 +72,14 @@ using WantedSize = std::function<double(const Point&)>;
 
 /// All measures of one cell, by Measure.
 using CellMeasures = std::array<double, measure_infos.size()>;
+/// One of them.
 inline double value_of(const CellMeasures& values, Measure m) {
     return values[static_cast<std::size_t>(m)];
 }
 
+/// Where the cell's wanted size is asked.
 Point centroid(const volmesh::TetMesh& mesh, volmesh::CellHandle c);
+/// For the functions of measures.hh.
 TetGeometry cell_geometry(const volmesh::TetMesh& mesh, volmesh::CellHandle c);
 
 /// `size` is asked at the cell's centroid; without one phi is 0. Throws InputError, naming the cell and the

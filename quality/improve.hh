@@ -9,8 +9,9 @@
 
 namespace maille::quality {
 
+/// How far to go.
 struct ImproveOptions {
-    int max_passes = 12;
+    int max_passes = 12;  ///< over the worst cells
     /// Most cells that the passes try, for each cell of the mesh; one pass tries a quarter of that, the worst
     /// first. Only meshes that are bad all over reach it, where more tries gain little.
     double tries_per_cell = 0.75;
@@ -22,19 +23,27 @@ struct ImproveOptions {
     /// Most sweeps to raise the mean of beta: each removes edges inside the mesh where the mean is below
     /// `good_mean`, and then moves vertices. They end when it is no longer, or gains little.
     int mean_sweeps = 8;
-    double good_mean = 0.8;
+    double good_mean = 0.8;  ///< mean of beta over the cells of an edge
     /// Wanted edge lengths; a move makes no cell longer than `ratio` times the size at its centroid, unless
     /// it takes the place of one that is as far beyond.
     const WantedSize* size = nullptr;
-    double ratio = 1.5;
+    double ratio = 1.5;  ///< as refinement has it
 };
 
+/// What bettering a mesh has done.
 struct ImproveResult {
-    int passes = 0;
+    int passes = 0;  ///< over the worst cells
+    ///@{
+    /// Edits that were kept, by kind.
     std::size_t moves = 0, edge_removals = 0, face_removals = 0, collapses = 0, splits = 0;
-    double worst_before = 0, worst_after = 0;  ///< least objective of the mesh
-    bool is_cut_short = false;                 ///< by `tries_per_cell`
+    ///@}
+    ///@{
+    /// Least objective of the mesh, before and after.
+    double worst_before = 0, worst_after = 0;
+    ///@}
+    bool is_cut_short = false;  ///< by `tries_per_cell`
 
+    /// Number of all edits.
     std::size_t edits() const { return moves + edge_removals + face_removals + collapses + splits; }
 };
 

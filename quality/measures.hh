@@ -16,6 +16,7 @@
 /// to the same: 1 for the regular tetrahedron, 0 for a flat one, negative for an inverted one.
 namespace maille::quality {
 
+/// A place, as the mesh has it.
 using Point = Eigen::Vector3d;
 
 /// What the measures share, worked out once. Values are in units of `unit`, `unit` squared and `unit` cubed.
@@ -35,10 +36,13 @@ struct TetGeometry {
     std::array<double, 6> normal_products{};
 };
 
+/// Worked out from the four points. The measures below ask it alone.
 TetGeometry tet_geometry(const Point& a, const Point& b, const Point& c, const Point& d);
 
 // ---- with a dimension
 // ---------------------------------------------------------------------------------------------
+///@{
+/// The fields of TetGeometry of the same names, in the unit of the points.
 double volume(const TetGeometry& t);
 double inradius(const TetGeometry& t);
 double circumradius(const TetGeometry& t);
@@ -46,6 +50,7 @@ double shortest_edge(const TetGeometry& t);
 double longest_edge(const TetGeometry& t);
 double mean_edge(const TetGeometry& t);
 double rms_edge(const TetGeometry& t);
+///@}
 
 // ---- shape
 // --------------------------------------------------------------------------------------------------------
@@ -68,17 +73,21 @@ double alpha(const TetGeometry& t);
 /// 6 sqrt(2) V / Lrms^3. Equation (5), after Parthasarathy et al.; printed with 8.4779670 for 8.485281.
 double gamma(const TetGeometry& t);
 
+///@{
 /// The smallest and the largest angle between two faces, in degrees: atan2 of the sine and cosine from the
 /// faces' normals, exact also where it is near 0 or 180. A flat or inverted tetrahedron has 0 and 180, the
 /// worst there are.
 double dihedral_min(const TetGeometry& t);
 double dihedral_max(const TetGeometry& t);
+///@}
 
+///@{
 /// The smallest and the largest solid angle, in steradians (the regular tetrahedron has .551286), after A.
 /// van Oosterom, J. Strackee, "The solid angle of a plane triangle", 1983. A flat or inverted tetrahedron has
 /// 0 and 2 pi, the worst there are.
 double solid_angle_min(const TetGeometry& t);
 double solid_angle_max(const TetGeometry& t);
+///@}
 
 /// sqrt(3/2) times the least height over Lmax: the inverse of the aspect ratio.
 double aspect(const TetGeometry& t);

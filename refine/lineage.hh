@@ -13,7 +13,7 @@ struct Lineage {
     /// For each new vertex, by its index less `n_vertices_before`, the ends of the edge that it was born on:
     /// an older vertex each.
     std::vector<std::array<std::uint32_t, 2>> vertex_parents;
-    std::uint32_t n_vertices_before = 0;
+    std::uint32_t n_vertices_before = 0;  ///< which keep their numbers
 };
 
 }  // namespace maille::refine

@@ -16,9 +16,9 @@ using volmesh::VertexHandle;
 /// Which of several edges of one length counts as the longest (the paper, section 3.3, "Edge of
 /// subdivision").
 enum class Ties : std::uint8_t {
-    order,   ///< the older one
-    fewest,  ///< the one with the fewest cells round it that are not to be refined, counted when a pass
-             ///< begins; then the older one
+    order,    ///< the older one
+    fewest,   ///< the one with the fewest cells round it that are not to be refined, counted when a pass
+              ///< begins; then the older one
     boundary  ///< one on the boundary; then the older one
 };
 
@@ -29,6 +29,7 @@ enum class Ties : std::uint8_t {
 /// decides only where two edges share their midpoint.
 class LongestEdge {
   public:
+    /// The mesh must outlive this.
     LongestEdge(const TetMesh& mesh, Ties ties) : mesh_(mesh), ties_(ties), generations_(mesh.n_vertices()) {}
 
     /// A pass begins that is to refine these cells. Returns whether other edges may be the longest from now
@@ -59,6 +60,7 @@ class LongestEdge {
         generations_;  ///< by vertex: 0 in the first mesh, else one more than its parents'
 };
 
+/// Of the edge between two points; summed in one order everywhere, so that equal edges stay equal.
 inline double squared_length(const volmesh::Point& a, const volmesh::Point& b) {
     const double x = a.x() - b.x(), y = a.y() - b.y(), z = a.z() - b.z();
     return x * x + y * y + z * z;

@@ -11,14 +11,15 @@ namespace maille::refine {
 
 /// A vertex that could not be brought onto all its surfaces.
 struct ShortOfTarget {
-    volmesh::VertexHandle vertex;
-    volmesh::Point place;
+    volmesh::VertexHandle vertex;       ///< of the mesh as it is now
+    volmesh::Point place;               ///< where it had to stay
     std::vector<std::string> surfaces;  ///< the names of all that it should lie on
     std::optional<double> distance;     ///< to go; nothing where the surfaces have no common point nearby
 };
 
+/// What bringing vertices onto the true surfaces has come to.
 struct ProjectionResult {
-    std::size_t moved = 0;
+    std::size_t moved = 0;                       ///< vertices, whether all the way or not
     std::vector<ShortOfTarget> short_of_target;  ///< by vertex, ascending
 };
 

@@ -37,8 +37,8 @@ class SizeField {
 /// What an expression of a size may speak of besides the point. Nothing of it is needed once it has been
 /// read, but the projector's functions, which are kept.
 struct SizeContext {
-    const volmesh::TetMesh* mesh = nullptr;
-    const volmesh::Projector* projector = nullptr;
+    const volmesh::TetMesh* mesh = nullptr;         ///< whose sets `d` measures to
+    const volmesh::Projector* projector = nullptr;  ///< whose surfaces `curvature` asks for
 };
 
 /// The size that an expression of x, y, z and r, the distance from the origin, gives:

@@ -4,12 +4,13 @@
 
 namespace maille::refine {
 
+/// How to refine uniformly.
 struct UniformOptions {
     int levels = 1;             ///< how often every element is cut into eight
     bool project = true;        ///< where a projector is given
     double min_shape = 0.0005;  ///< as in RefineOptions
     int threads = 0;            ///< 0: as many as the machine has; the result does not depend on it
-    std::function<void(const Progress&)> progress{};
+    std::function<void(const Progress&)> progress{};  ///< called after each level
 };
 
 /// Cuts every element into eight of equal volume, level by level (`volmesh::TetMesh::split_uniformly`): the

@@ -9,7 +9,7 @@ namespace maille::volmesh {
 
 /// Faces of a mesh as a surface that knows what it was taken from.
 struct ExtractedSurface {
-    TriMesh surface;
+    TriMesh surface;  ///< of the faces alone
     /// By vertex of the surface: the vertex of the mesh.
     std::vector<VertexHandle> vertices;
     /// By face of the surface: the half-face of the mesh, whose way of turning it has.

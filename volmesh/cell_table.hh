@@ -14,6 +14,7 @@ namespace maille::volmesh {
 template <class Entity>
 class CellTable {
   public:
+    /// The cells at an entity, ascending. Valid as long as the table.
     std::span<const CellHandle> operator[](Entity h) const {
         return {cells_.data() + begins_[h.idx()], cells_.data() + begins_[h.idx() + 1]};
     }

@@ -11,12 +11,13 @@ namespace maille::volmesh {
 /// The cells round an edge: cell i has the ends and ring vertices i and i + 1, and (a, b, v[i], v[i + 1]) is
 /// positively oriented. Closed inside the mesh, where vertex 0 follows the last one; open on the boundary.
 struct EdgeRing {
-    VertexHandle a, b;
-    CellList cells;
-    VertexList vertices;
-    bool is_closed = true;
+    VertexHandle a;         ///< one end of the edge
+    VertexHandle b;         ///< the other
+    CellList cells;         ///< as many as there are vertices, one less where the ring is open
+    VertexList vertices;    ///< of the ring
+    bool is_closed = true;  ///< whether the edge is inside the mesh
 
-    std::size_t size() const { return vertices.size(); }
+    std::size_t size() const { return vertices.size(); }  ///< number of ring vertices
 };
 
 /// Nothing where the boundary isn't manifold at the edge.
@@ -41,14 +42,19 @@ bool is_edge_removal_ok(const TetMesh& mesh, const EdgeRing& ring, std::span<con
 /// "Optimization of tetrahedral meshes", 1995.)
 void remove_edge(TetMesh& mesh, const EdgeRing& ring, std::span<const RingTriangle> triangles);
 
+///@{
 /// The 3-2 flip of an edge that has three cells round it.
 bool is_flip_32_ok(const TetMesh& mesh, CellHandle c, int local_edge);
 void flip_32(TetMesh& mesh, CellHandle c, int local_edge);
+///@}
 
-/// The 4-4 flip of an edge with four cells; the new edge joins ring vertices 0 and 2, or else 1 and 3.
+/// Which ring vertices the new edge of a 4-4 flip joins: 0 and 2, or 1 and 3.
 enum class Diagonal : std::uint8_t { first, second };
+///@{
+/// The 4-4 flip of an edge with four cells.
 bool is_flip_44_ok(const TetMesh& mesh, CellHandle c, int local_edge, Diagonal diagonal,
                    double tolerance = 0);
 void flip_44(TetMesh& mesh, CellHandle c, int local_edge, Diagonal diagonal);
+///@}
 
 }  // namespace maille::volmesh

@@ -17,8 +17,10 @@ bool is_face_removal_ok(const TetMesh& mesh, std::span<const HalffaceHandle> fac
 /// tetrahedral meshes", 2002.) Precondition: is_face_removal_ok.
 void remove_faces(TetMesh& mesh, std::span<const HalffaceHandle> faces);
 
+///@{
 /// The 2-3 flip: the removal of one face.
 bool is_flip_23_ok(const TetMesh& mesh, HalffaceHandle hf);
 void flip_23(TetMesh& mesh, HalffaceHandle hf);
+///@}
 
 }  // namespace maille::volmesh

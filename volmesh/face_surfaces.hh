@@ -16,6 +16,7 @@ namespace maille::volmesh {
 /// for a corner.
 using Surfaces = boost::container::small_vector<std::uint32_t, 4>;
 
+/// Unites them.
 void add(Surfaces& to, const Surfaces& more);
 
 /// Which of a projector's surfaces the faces of a mesh lie on: those that bear the names of the face's sets.

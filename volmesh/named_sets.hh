@@ -17,6 +17,7 @@ namespace maille::volmesh {
 
 class TetMesh;
 
+/// What a set has as members, or a property belongs to.
 enum class EntityKind : std::uint8_t { vertex, edge, face, cell };
 
 /// How a named set passes to what an edge split a-b -> a-m-b creates.
@@ -26,6 +27,7 @@ enum class EntityKind : std::uint8_t { vertex, edge, face, cell };
 /// (a point load stays a point load: the default), `both_ends`, `from_edges`, `from_faces`. Every kind:
 /// `custom`.
 struct SetRule {
+    /// As the functions below say.
     enum class Kind : std::uint8_t { copy, none, both_ends, from_edges, from_faces, custom };
 
     /// Whether the new entity is a member. `entity` holds its vertices, ascending. For cell, edge and face
@@ -33,11 +35,13 @@ struct SetRule {
     using Function = std::function<bool(const TetMesh&, std::span<const VertexHandle> entity, VertexHandle a,
                                         VertexHandle b, VertexHandle m)>;
 
-    Kind kind = Kind::copy;
-    SetHandle source{};
-    Function function{};
+    Kind kind = Kind::copy;  ///< what the functions below choose
+    SetHandle source{};      ///< the set that the rule looks at, if it does
+    Function function{};     ///< of Kind::custom
 
+    /// The children of a member are members.
     static SetRule copy() { return {Kind::copy, {}, {}}; }
+    /// What is new is in no such set.
     static SetRule none() { return {Kind::none, {}, {}}; }
     /// m is a member if a and b are and, where a source is given, the edge a-b lies in it: it is a member of
     /// the edge set, or an edge of a member of the face set or of the cell set.
@@ -46,13 +50,15 @@ struct SetRule {
     static SetRule from_edges(SetHandle edge_set) { return {Kind::from_edges, edge_set, {}}; }
     /// m is a member if a face at the edge a-b is in that face set.
     static SetRule from_faces(SetHandle face_set) { return {Kind::from_faces, face_set, {}}; }
+    /// As the function says. No file keeps it.
     static SetRule custom(Function f) { return {Kind::custom, {}, std::move(f)}; }
 };
 
+/// What a set is, but for its members.
 struct SetInfo {
-    std::string name;
-    EntityKind kind;
-    SetRule rule;
+    std::string name;  ///< unique among the sets of the kind
+    EntityKind kind;   ///< of its members
+    SetRule rule;      ///< how it passes to what edits create
 };
 
 /// Number of an interned combination of sets; 0 is the empty one.

@@ -28,7 +28,7 @@ enum class PropertyRule : std::uint8_t {
 /// The rule of a property: one of the above or functions of the user's.
 template <class T>
 struct PropertyHeritage {
-    PropertyRule rule = PropertyRule::copy;
+    PropertyRule rule = PropertyRule::copy;  ///< where there is no function
     /// Vertices: value at m = (1 - ratio) a + ratio b.
     std::function<T(const T& at_a, const T& at_b, double ratio)> at_vertex{};
     /// Cells, faces, edges: values of the children that keep a and b; `ratio` is the part that the first one
@@ -36,6 +36,7 @@ struct PropertyHeritage {
     std::function<std::pair<T, T>(const T& parent, double ratio)> at_children{};
 
     PropertyHeritage() = default;
+    /// A rule alone.
     PropertyHeritage(PropertyRule r) : rule(r) {}  // NOLINT: a rule is a heritage
 };
 
@@ -55,33 +56,37 @@ T initial_value() {
 
 /// Who gets the values of entities that a local edit takes out.
 struct Inheritance {
+    /// An entity that is born.
     struct Heir {
-        std::uint32_t index;
+        std::uint32_t index;   ///< its own
         std::uint32_t parent;  ///< one of the old ones; the invalid index for what has no parent
         double measure;        ///< volume, area or length
     };
-    std::vector<std::uint32_t> olds;
-    std::vector<Heir> heirs;
+    std::vector<std::uint32_t> olds;  ///< what goes
+    std::vector<Heir> heirs;          ///< what comes
 };
 
 /// Values of one property, by entity index: the part that the mesh works with whatever the type.
 class BaseProperty {
   public:
+    /// Without values yet.
     explicit BaseProperty(std::string name) : name_(std::move(name)) {}
     virtual ~BaseProperty() = default;
     BaseProperty& operator=(const BaseProperty&) = delete;
 
-    const std::string& name() const { return name_; }
-    virtual const std::type_info& type() const = 0;
-    virtual PropertyRule rule() const = 0;
+    const std::string& name() const { return name_; }  ///< unique among those of its kind
+    virtual const std::type_info& type() const = 0;    ///< of a value
+    virtual PropertyRule rule() const = 0;             ///< what stands where there is no function
     /// Whether functions of the user's stand in for the rule.
     virtual bool has_own_rule() const = 0;
+    ///@{
     /// A value, or that of entities that nothing is known of, in words, as text_of gives it.
     virtual std::string text(std::size_t i) const = 0;
     virtual std::string default_text() const = 0;
-    virtual std::unique_ptr<BaseProperty> clone() const = 0;
-    virtual std::size_t size() const = 0;
-    virtual void resize(std::size_t n) = 0;
+    ///@}
+    virtual std::unique_ptr<BaseProperty> clone() const = 0;  ///< a copy, values and all
+    virtual std::size_t size() const = 0;                     ///< number of values: indices in use
+    virtual void resize(std::size_t n) = 0;                   ///< new ones get the default
     /// The vertex m is born between a and b.
     virtual void set_between(std::uint32_t m, std::uint32_t a, std::uint32_t b, double ratio) = 0;
     /// `child` is the second child of `parent`, which becomes the first child.
@@ -97,17 +102,20 @@ class BaseProperty {
     /// Puts the values of another, of the same type, behind its own.
     virtual void append(const BaseProperty& more) = 0;
 
+    /// @cond
   protected:
     BaseProperty(const BaseProperty&) = default;
+    /// @endcond
 
   private:
     std::string name_;
 };
 
+/// The values of one property, with their type.
 template <class T>
 class Property final : public BaseProperty {
   public:
-    // std::vector<bool> has no references.
+    /// As what a value is stored: as itself, but for bool, as std::vector<bool> has no references.
     using Stored = std::conditional_t<std::same_as<T, bool>, std::uint8_t, T>;
 
     /// Whether values can be added and scaled by a real number: floating point and Eigen's types, not
@@ -117,15 +125,19 @@ class Property final : public BaseProperty {
         {T(t * 0.5 + t * 0.5)};
     };
 
+    /// Without values yet.
     Property(std::string name, PropertyHeritage<T> heritage, T default_value)
         : BaseProperty(std::move(name)), heritage_(std::move(heritage)), default_(std::move(default_value)) {}
 
+    ///@{
+    /// By index of the entity.
     Stored& operator[](std::uint32_t i) { return values_[i]; }
     const Stored& operator[](std::uint32_t i) const { return values_[i]; }
     std::vector<Stored>& values() { return values_; }
     const std::vector<Stored>& values() const { return values_; }
-    const PropertyHeritage<T>& heritage() const { return heritage_; }
-    const Stored& default_value() const { return default_; }
+    ///@}
+    const PropertyHeritage<T>& heritage() const { return heritage_; }  ///< as given at the beginning
+    const Stored& default_value() const { return default_; }           ///< of what nothing is known of
 
     const std::type_info& type() const override { return typeid(T); }
     PropertyRule rule() const override { return heritage_.rule; }
@@ -269,8 +281,10 @@ template <class Entity, class T>
 class PropertyHandle : public Handle<PropertyHandle<Entity, T>> {
   public:
     using Handle<PropertyHandle<Entity, T>>::Handle;
-    using Value = T;
+    using Value = T;  ///< of one entity
 };
+///@{
+/// For TetMesh::add_property and what follows: a property of vertices, edges, faces or cells.
 template <class T>
 using VPropHandleT = PropertyHandle<VertexHandle, T>;
 template <class T>
@@ -279,8 +293,10 @@ template <class T>
 using FPropHandleT = PropertyHandle<FaceHandle, T>;
 template <class T>
 using CPropHandleT = PropertyHandle<CellHandle, T>;
+///@}
 /// Stands for the mesh as a whole, which has properties too.
 using MeshHandle = Handle<struct MeshKind>;
+/// A property of the mesh as a whole: one value.
 template <class T>
 using MPropHandleT = PropertyHandle<MeshHandle, T>;
 
@@ -288,12 +304,16 @@ using MPropHandleT = PropertyHandle<MeshHandle, T>;
 template <class Entity, class T>
 class PropertyView {
   public:
+    /// TetMesh::property makes these.
     explicit PropertyView(Property<T>& values) : values_(&values) {}
+    /// The entity's value, to be read or changed.
     typename Property<T>::Stored& operator[](Entity h) const { return (*values_)[h.idx()]; }
 
   private:
     Property<T>* values_;
 };
+///@{
+/// The values of a property of vertices, edges, faces or cells.
 template <class T>
 using VProp = PropertyView<VertexHandle, T>;
 template <class T>
@@ -302,27 +322,33 @@ template <class T>
 using FProp = PropertyView<FaceHandle, T>;
 template <class T>
 using CProp = PropertyView<CellHandle, T>;
+///@}
 
 /// All properties of one kind of entity. Copies deeply.
 class PropertyList {
   public:
     PropertyList() = default;
+    /// @cond
     PropertyList(const PropertyList& other);
     PropertyList& operator=(const PropertyList& other);
     PropertyList(PropertyList&&) noexcept = default;
     PropertyList& operator=(PropertyList&&) noexcept = default;
     ~PropertyList() = default;
+    /// @endcond
 
     /// Index of the property; throws std::invalid_argument where the name is taken.
     std::uint32_t add(std::unique_ptr<BaseProperty> property);
+    /// Its index is not used again.
     void remove(std::uint32_t i);
     /// Index of the property with this name and type; nothing found: the invalid index.
     std::uint32_t find(const std::string& name, const std::type_info& type) const;
+    /// By an index that add or find gave, and that was not removed.
     BaseProperty& at(std::uint32_t i) const { return *properties_[i]; }
     /// Every property, in the order of their making; removed ones are null.
     const std::vector<std::unique_ptr<BaseProperty>>& all() const { return properties_; }
-    bool empty() const;
+    bool empty() const;  ///< whether there are none, or all are removed
 
+    /// Calls the action with each property that is not removed.
     template <class Action>
     void for_each(const Action& action) {
         for (auto& property : properties_)

@@ -16,21 +16,22 @@ namespace maille::volmesh {
 /// (PropertyRule::share) of what vanishes go to what is born in the same sets, else to what stays in them, by
 /// measure.
 struct Retriangulation {
+    /// A cell that is born.
     struct NewCell {
-        std::array<VertexHandle, 4> vertices;
-        CellHandle parent;  ///< the old cell whose sets and values it takes
+        std::array<VertexHandle, 4> vertices;  ///< positively oriented
+        CellHandle parent;                     ///< the old cell whose sets and values it takes
     };
     /// A face that is born in the sets of an old one.
     struct NewFace {
-        std::array<VertexHandle, 3> vertices;
-        HalffaceHandle parent;
+        std::array<VertexHandle, 3> vertices;  ///< in any order
+        HalffaceHandle parent;                 ///< whichever side of the old one
     };
 
-    CellList old_cells;
-    boost::container::small_vector<NewCell, 24> new_cells;
-    boost::container::small_vector<NewFace, 4> new_faces{};
-    /// Where an edge is collapsed: the end that goes, and the one that stands for it from then on.
-    VertexHandle gone{}, heir{};
+    CellList old_cells;                                      ///< that go; no one twice
+    boost::container::small_vector<NewCell, 24> new_cells;   ///< that take the old ones' indices first
+    boost::container::small_vector<NewFace, 4> new_faces{};  ///< those that are in sets
+    VertexHandle gone{};  ///< where an edge is collapsed: the end that goes,
+    VertexHandle heir{};  ///< and the one that stands for it from then on
     /// Whether what is born divides its parent, so that the sets' rules have a say.
     bool divides = false;
 };

@@ -7,14 +7,16 @@
 #include "volmesh/tet_mesh.hh"
 
 /// New named sets from others, or from what is asked of each entity. A new set has its kind's default rule
-/// and is independent of those that it came from. Each costs a pass over the mesh for each set that it looks
-/// at. All throw std::invalid_argument where the kind has a set of that name already, or a set is of another
-/// kind than is said.
+/// and is independent of those that it came from. Each costs what the members of the
+/// sets that it looks at do, set_where a pass over the mesh. All throw std::invalid_argument where the kind
+/// has a set of that name already, or a set is of another kind than is said.
 namespace maille::volmesh {
 
+///@{
 /// Of one or more sets of one kind: what is in any of them; in all of them.
 SetHandle set_union(TetMesh& mesh, const std::string& name, const std::vector<SetHandle>& sets);
 SetHandle set_intersection(TetMesh& mesh, const std::string& name, const std::vector<SetHandle>& sets);
+///@}
 /// What is in the first but in none of the others, all of one kind.
 SetHandle set_difference(TetMesh& mesh, const std::string& name, SetHandle from,
                          const std::vector<SetHandle>& others);

@@ -26,9 +26,10 @@ struct SmartHandle<CellHandle>;
 /// of plain ones, or as their array where their number is fixed (auto [a, b] = edge.vertices()).
 template <class List>
 struct SmartList {
-    using Plain = typename List::value_type;
-    using value_type = SmartHandle<Plain>;
+    using Plain = typename List::value_type;  ///< the kind of handle that is kept
+    using value_type = SmartHandle<Plain>;    ///< the kind that it is read as
 
+    /// Goes at random; what it points at is made when it is asked for.
     class Iterator {
       public:
         using value_type = SmartHandle<Plain>;
@@ -62,9 +63,11 @@ struct SmartList {
         const TetMesh* mesh_ = nullptr;
     };
 
-    List handles;
-    const TetMesh* mesh = nullptr;
+    List handles;                   ///< the plain ones
+    const TetMesh* mesh = nullptr;  ///< theirs
 
+    ///@{
+    /// As a constant std::vector of smart handles has it.
     Iterator begin() const { return {handles.data(), mesh}; }
     Iterator end() const { return {handles.data() + handles.size(), mesh}; }
     std::size_t size() const { return handles.size(); }
@@ -72,89 +75,110 @@ struct SmartList {
     value_type operator[](std::size_t i) const { return {handles[i], mesh}; }
     value_type front() const { return {handles.front(), mesh}; }
     value_type back() const { return {handles.back(), mesh}; }
+    ///@}
+    /// The plain handles.
     operator const List&() const { return handles; }  // NOLINT: it is such a list
+    /// For structured bindings.
     template <std::size_t I>
     friend value_type get(const SmartList& list) {
         return list[I];
     }
 };
 
+/// The same where their number is fixed.
 template <std::size_t N, class H>
 using SmartArray = SmartList<std::array<H, N>>;
 
-/// A handle that knows its mesh, so that incidences read as vh.cells(). Valid while the mesh stays where it
-/// is. Orders and costs are those of the mesh's queries.
+/// A vertex handle that knows its mesh, so that incidences read as vh.cells(). Valid while the mesh stays
+/// where it is. Orders and costs are those of the mesh's queries.
 template <>
 struct SmartHandle<VertexHandle> : VertexHandle {
-    const TetMesh* mesh = nullptr;
+    const TetMesh* mesh = nullptr;  ///< whose vertex it is
+    /// Its place.
     const Point& point() const { return mesh->point(*this); }
-    SmartList<CellList> cells() const;
-    SmartList<EdgeList> edges() const;
-    SmartList<VertexList> vertices() const;
-    SmartList<FaceList> faces() const;
-    SmartList<HalffaceList> halffaces() const;
-    SmartList<HalfedgeList> outgoing_halfedges() const;
-    SmartList<HalfedgeList> incoming_halfedges() const;
+    SmartList<CellList> cells() const;                   ///< TetMesh::vc_range
+    SmartList<EdgeList> edges() const;                   ///< TetMesh::ve_range
+    SmartList<VertexList> vertices() const;              ///< TetMesh::vv_range: those an edge away
+    SmartList<FaceList> faces() const;                   ///< TetNavigation::vf_range
+    SmartList<HalffaceList> halffaces() const;           ///< TetNavigation::vhf_range
+    SmartList<HalfedgeList> outgoing_halfedges() const;  ///< TetNavigation::voh_range
+    SmartList<HalfedgeList> incoming_halfedges() const;  ///< TetNavigation::vih_range
+    /// Number of edges.
     std::size_t valence() const { return mesh->valence(VertexHandle(*this)); }
+    /// Whether a boundary face has it.
     bool is_boundary() const { return mesh->is_boundary(VertexHandle(*this)); }
 };
+/// An edge handle that knows its mesh.
 template <>
 struct SmartHandle<EdgeHandle> : EdgeHandle {
-    const TetMesh* mesh = nullptr;
-    SmartArray<2, VertexHandle> vertices() const;
-    SmartHandle<HalfedgeHandle> halfedge(int side) const;
-    SmartArray<2, HalfedgeHandle> halfedges() const;
-    SmartList<CellList> cells() const;
-    SmartList<FaceList> faces() const;
-    SmartList<HalffaceList> halffaces() const;
+    const TetMesh* mesh = nullptr;                         ///< whose edge it is
+    SmartArray<2, VertexHandle> vertices() const;          ///< its ends, the lower one first
+    SmartHandle<HalfedgeHandle> halfedge(int side) const;  ///< side 0 leaves the lower end
+    SmartArray<2, HalfedgeHandle> halfedges() const;       ///< both, by side
+    SmartList<CellList> cells() const;                     ///< TetMesh::ec_range
+    SmartList<FaceList> faces() const;                     ///< TetMesh::ef_range
+    SmartList<HalffaceList> halffaces() const;             ///< TetNavigation::ehf_range
+    /// Number of faces.
     std::size_t valence() const { return mesh->valence(EdgeHandle(*this)); }
+    /// Whether a boundary face has it.
     bool is_boundary() const { return mesh->is_boundary(EdgeHandle(*this)); }
 };
+/// A half-edge handle that knows its mesh.
 template <>
 struct SmartHandle<HalfedgeHandle> : HalfedgeHandle {
-    const TetMesh* mesh = nullptr;
-    SmartHandle<VertexHandle> from() const;
-    SmartHandle<VertexHandle> to() const;
-    SmartHandle<EdgeHandle> edge() const;
+    const TetMesh* mesh = nullptr;           ///< whose half-edge it is
+    SmartHandle<VertexHandle> from() const;  ///< the end that it leaves
+    SmartHandle<VertexHandle> to() const;    ///< the end that it comes to
+    SmartHandle<EdgeHandle> edge() const;    ///< that it is one of the two of
+    /// The same edge, the other way.
     SmartHandle opposite() const { return {mesh->opposite_halfedge_handle(*this), mesh}; }
-    SmartList<CellList> cells() const;
-    SmartList<HalffaceList> halffaces() const;
+    SmartList<CellList> cells() const;          ///< TetMesh::ec_range of its edge
+    SmartList<HalffaceList> halffaces() const;  ///< TetNavigation::hehf_range: those that turn with it
+    /// Whether a boundary face has its edge.
     bool is_boundary() const { return mesh->is_boundary(HalfedgeHandle(*this)); }
 };
+/// A face handle that knows its mesh.
 template <>
 struct SmartHandle<FaceHandle> : FaceHandle {
-    const TetMesh* mesh = nullptr;
-    SmartHandle<HalffaceHandle> halfface(int side) const;
-    SmartList<HalffaceList> halffaces() const;
-    SmartArray<3, VertexHandle> vertices() const;
-    SmartList<EdgeList> edges() const;
-    SmartList<CellList> cells() const;
+    const TetMesh* mesh = nullptr;                         ///< whose face it is
+    SmartHandle<HalffaceHandle> halfface(int side) const;  ///< side 1 is invalid on the boundary
+    SmartList<HalffaceList> halffaces() const;             ///< one or two
+    SmartArray<3, VertexHandle> vertices() const;          ///< as its first half-face turns
+    SmartList<EdgeList> edges() const;                     ///< TetMesh::fe_range
+    SmartList<CellList> cells() const;                     ///< one or two
+    /// Whether it has one cell only.
     bool is_boundary() const { return mesh->is_boundary(FaceHandle(*this)); }
 };
+/// A half-face handle that knows its mesh.
 template <>
 struct SmartHandle<HalffaceHandle> : HalffaceHandle {
-    const TetMesh* mesh = nullptr;
-    SmartHandle<CellHandle> cell() const;
-    SmartHandle<FaceHandle> face() const;
-    SmartArray<3, VertexHandle> vertices() const;
-    SmartArray<3, EdgeHandle> edges() const;
-    SmartArray<3, HalfedgeHandle> halfedges() const;
+    const TetMesh* mesh = nullptr;                    ///< whose half-face it is
+    SmartHandle<CellHandle> cell() const;             ///< from which it is seen
+    SmartHandle<FaceHandle> face() const;             ///< that it is a side of
+    SmartArray<3, VertexHandle> vertices() const;     ///< counter-clockwise seen from outside its cell
+    SmartArray<3, EdgeHandle> edges() const;          ///< from each of the vertices to the next
+    SmartArray<3, HalfedgeHandle> halfedges() const;  ///< the same, as they turn
+    /// The same face seen from its other cell; invalid on the boundary.
     SmartHandle opposite() const { return {mesh->opposite_halfface_handle(*this), mesh}; }
-    SmartHandle<VertexHandle> opposite_vertex() const;
+    SmartHandle<VertexHandle> opposite_vertex() const;  ///< the vertex of its cell that isn't on it
+    /// The other half-face of its cell at one of its edges.
     SmartHandle adjacent_in_cell(EdgeHandle e) const {
         return {mesh->adjacent_halfface_in_cell(*this, e), mesh};
     }
+    /// Whether it has no opposite.
     bool is_boundary() const { return mesh->is_boundary(HalffaceHandle(*this)); }
 };
+/// A cell handle that knows its mesh. Lists are by local number.
 template <>
 struct SmartHandle<CellHandle> : CellHandle {
-    const TetMesh* mesh = nullptr;
-    SmartArray<4, VertexHandle> vertices() const;
-    SmartArray<6, EdgeHandle> edges() const;
-    SmartArray<12, HalfedgeHandle> halfedges() const;
-    SmartArray<4, FaceHandle> faces() const;
-    SmartArray<4, HalffaceHandle> halffaces() const;
-    SmartList<CellList> neighbors() const;
+    const TetMesh* mesh = nullptr;                     ///< whose cell it is
+    SmartArray<4, VertexHandle> vertices() const;      ///< positively oriented
+    SmartArray<6, EdgeHandle> edges() const;           ///< in the order of tet::edge_vertices
+    SmartArray<12, HalfedgeHandle> halfedges() const;  ///< both of each edge, side 0 first
+    SmartArray<4, FaceHandle> faces() const;           ///< each opposite the vertex of its number
+    SmartArray<4, HalffaceHandle> halffaces() const;   ///< the same, seen from the cell
+    SmartList<CellList> neighbors() const;             ///< those beyond its faces, at most four
+    /// Whether one of its faces is on the boundary.
     bool is_boundary() const { return mesh->is_boundary(CellHandle(*this)); }
 };
 

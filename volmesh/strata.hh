@@ -15,6 +15,7 @@ bool is_same_patch(const TetMesh& mesh, HalffaceHandle one, HalffaceHandle other
 /// a vertex set, or where curves or sheets meet. The mesh's shape has no say: a box whose boundary is one set
 /// has no curves.
 int stratum(const TetMesh& mesh, VertexHandle v);
+/// The same for an edge.
 int stratum(const TetMesh& mesh, CellHandle c, int local_edge);
 /// As the first one, for a caller who has the cells at v.
 int stratum(const TetMesh& mesh, VertexHandle v, const CellList& cells);

@@ -9,10 +9,12 @@ namespace maille::volmesh {
 
 /// A part of a mesh as a mesh of its own, and where its entities come from.
 struct SubMesh {
-    TetMesh mesh;
+    TetMesh mesh;  ///< the part
+    ///@{
     /// By index in the part: the entity of the whole.
     std::vector<VertexHandle> vertices;
     std::vector<CellHandle> cells;
+    ///@}
 };
 
 /// The cells given and their vertices, each in ascending order, with all sets and properties. A set that has

@@ -90,6 +90,7 @@ void TetMesh::append(const TetMesh& other) {
         request_faces();
         other.request_faces();
     }
+    members_.forget();
     append_sets(other);
     append_properties(other);
     append_numbers(other);

@@ -7,6 +7,7 @@
 
 #include "volmesh/error.hh"
 #include "volmesh/fans.hh"
+#include "volmesh/link_faces.hh"
 #include "volmesh/orientation.hh"
 #include "volmesh/overlap.hh"
 #include "volmesh/tet_mesh.hh"
@@ -23,21 +24,29 @@ CellList united(std::span<const CellList> lists) {
     return all;
 }
 
+/// The cell's vertices must be four of so many.
+void require_four_of(std::size_t n_points, const std::array<TetMesh::Index, 4>& cell, std::size_t c) {
+    const auto [v0, v1, v2, v3] = cell;
+    const bool is_in_range = std::max(std::max(v0, v1), std::max(v2, v3)) < n_points;
+    const bool has_repeats =
+        ((v0 == v1) | (v0 == v2) | (v0 == v3) | (v1 == v2) | (v1 == v3) | (v2 == v3)) != 0;
+    if (is_in_range && !has_repeats) return;
+    for (int i = 0; i < 4; ++i) {
+        if (cell[i] >= n_points)
+            throw InputError(
+                fmt::format("cell {} has vertex {}, but there are only {} vertices", c, cell[i], n_points));
+        for (int j = 0; j < i; ++j)
+            if (cell[i] == cell[j]) throw InputError(fmt::format("cell {} has vertex {} twice", c, cell[i]));
+    }
+}
+
 }  // namespace
 
 TetMesh TetMesh::from_cells(std::vector<Point> points, std::vector<std::array<Index, 4>> cells) {
     if (cells.size() >= none / 8 || points.size() >= none)
         throw InputError(
             fmt::format("a mesh of {} cells is too large: at most {} fit", cells.size(), none / 8 - 1));
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        for (int i = 0; i < 4; ++i) {
-            if (cells[c][i] >= points.size())
-                throw InputError(fmt::format("cell {} has vertex {}, but there are only {} vertices", c,
-                                             cells[c][i], points.size()));
-            for (int j = 0; j < i; ++j)
-                if (cells[c][i] == cells[c][j])
-                    throw InputError(fmt::format("cell {} has vertex {} twice", c, cells[c][i]));
-        }
+    for (std::size_t c = 0; c < cells.size(); ++c) require_four_of(points.size(), cells[c], c);
     TetMesh mesh;
     mesh.points_.assign(std::exchange(points, {}));
     mesh.cells_.grow(cells.size());
@@ -49,55 +58,13 @@ TetMesh TetMesh::from_cells(std::vector<Point> points, std::vector<std::array<In
     return mesh;
 }
 
-// Faces are brought together by their lowest vertex, in buckets that a counting sort makes; each bucket is
-// small.
 void TetMesh::link_neighbors() {
-    struct Side {
-        Index middle, highest, halfface;
-        auto operator<=>(const Side&) const = default;
-    };
-    const auto sorted_face = [&](Index halfface) {
-        const auto& cell = cells_[halfface / 4].vertices;
-        const auto& local = tet::face_vertices[halfface % 4];
-        std::array<Index, 3> v{cell[local[0]], cell[local[1]], cell[local[2]]};
-        std::ranges::sort(v);
-        return v;
-    };
-    std::vector<Index> ends(points_.size() + 1, 0);
-    for (Index hf = 0; hf < n_halffaces(); ++hf) ++ends[sorted_face(hf)[0] + 1];
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<Side> sides(n_halffaces());
-    std::vector<Index> next(ends.begin(), ends.end() - 1);
-    for (Index hf = 0; hf < n_halffaces(); ++hf) {
-        const auto v = sorted_face(hf);
-        sides[next[v[0]]++] = {v[1], v[2], hf};
-    }
-
-    n_boundary_ = 0;
-    for (Index v = 0; v < n_vertices(); ++v) {
-        const std::span bucket(sides.begin() + ends[v], sides.begin() + ends[v + 1]);
-        std::ranges::sort(bucket);
-        for (std::size_t i = 0; i < bucket.size();) {
-            std::size_t same = i + 1;
-            while (same < bucket.size() && bucket[same].middle == bucket[i].middle &&
-                   bucket[same].highest == bucket[i].highest)
-                ++same;
-            const Index hf = bucket[i].halfface;
-            if (same - i > 2)
-                throw InputError(
-                    fmt::format("cells {}, {} and {} all have the face of vertices {}, {} and {}", hf / 4,
-                                bucket[i + 1].halfface / 4, bucket[i + 2].halfface / 4, v, bucket[i].middle,
-                                bucket[i].highest));
-            if (same - i == 2) {
-                const Index other = bucket[i + 1].halfface;
-                cells_[hf / 4].neighbors[hf % 4] = other;
-                cells_[other / 4].neighbors[other % 4] = hf;
-            } else {
-                ++n_boundary_;
-            }
-            i = same;
-        }
-    }
+    n_boundary_ = linking::link_faces(
+        n_vertices(), n_cells(), [&](Index c) -> const auto& { return cells_[c].vertices; },
+        [&](Index halfface, Index other) {
+            cells_[halfface / 4].neighbors[halfface % 4] = other;
+            cells_[other / 4].neighbors[other % 4] = halfface;
+        });
 }
 
 void TetMesh::find_vertex_cells() {
@@ -227,6 +194,7 @@ CellHandle TetMesh::add_cell(VertexHandle v0, VertexHandle v1, VertexHandle v2, 
         if (overlap(corners, cell_points(other)))
             throw std::invalid_argument(fmt::format("{}: it overlaps cell {}", name, other.idx()));
 
+    members_.forget();
     const CellHandle c(n_cells());
     for (CellList& cells : cells_at) cells.push_back(c);
     cells_.push_back({{v0.idx(), v1.idx(), v2.idx(), v3.idx()}, opposite});

@@ -40,6 +40,7 @@ void TetMesh::delete_cell(CellHandle c) {
         cells_at[i] = vc_range(vertices[i]);
         cells_at[i].erase(std::ranges::find(cells_at[i], c));
     }
+    members_.forget();
     forget_numbers(c);
     for (Index& opposite : cells_[c.idx()].neighbors) {
         n_boundary_ += opposite == none ? -1 : 1;
@@ -52,6 +53,7 @@ void TetMesh::delete_cell(CellHandle c) {
 }
 
 void TetMesh::delete_isolated_vertices() {
+    members_.forget();
     for (Index v = 0; v < n_vertices(); ++v)
         if (vertex_cells_[v] == none) {
             if (deleted_vertices_.empty()) deleted_vertices_.resize(points_.size(), 0);
@@ -60,6 +62,7 @@ void TetMesh::delete_isolated_vertices() {
 }
 
 IndexMaps TetMesh::garbage_collection() {
+    members_.forget();
     const Kept vertices(points_.size(), [&](Index v) { return !is_deleted(VertexHandle(v)); });
     const Kept cells(cells_.size(), [&](Index c) { return !is_deleted(CellHandle(c)); });
     const Kept edges(edges_ ? edges_->place.size() : 0, [&](Index e) { return edges_->place[e] != none; });

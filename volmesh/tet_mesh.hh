@@ -15,6 +15,7 @@
 #include "volmesh/column.hh"
 #include "volmesh/edge_stars.hh"
 #include "volmesh/handles.hh"
+#include "volmesh/member_lists.hh"
 #include "volmesh/named_sets.hh"
 #include "volmesh/properties.hh"
 #include "volmesh/status.hh"
@@ -23,6 +24,7 @@
 
 namespace maille::volmesh {
 
+/// A place, in the unit of length that the user chose.
 using Point = Eigen::Vector3d;
 
 template <class H>
@@ -34,7 +36,10 @@ struct Cavity;
 
 /// Where each old index went in a garbage collection; the invalid index for what is gone.
 struct IndexMaps {
+    ///@{
+    /// By old index; of edges and faces there are none where they are not numbered.
     std::vector<std::uint32_t> vertices, edges, faces, cells;
+    ///@}
 };
 
 /// A tetrahedral mesh with properties and named sets. A value: it copies deeply and moves.
@@ -48,8 +53,8 @@ struct IndexMaps {
 /// Boundaries need not be manifold: cells that touch in a vertex or an edge only are found by every query.
 class TetMesh : public TetNavigation {
   public:
-    using Index = std::uint32_t;
-    static constexpr Index none = VertexHandle::invalid_index;
+    using Index = std::uint32_t;  ///< of an entity; at most some 500 million cells fit
+    static constexpr Index none = VertexHandle::invalid_index;  ///< where there is no entity
 
     // ---- making
     /// The mesh of these cells, each four vertex indices, positively oriented: (v1-v0)x(v2-v0).(v3-v0) > 0.
@@ -57,22 +62,29 @@ class TetMesh : public TetNavigation {
     /// has a vertex twice or more than two cells share a face, naming the cells.
     static TetMesh from_cells(std::vector<Point> points, std::vector<std::array<Index, 4>> cells);
 
+    /// A vertex without cells, in no set and with the properties' defaults.
     VertexHandle add_vertex(const Point& p);
+    /// A cell of these vertices, in no cell set; faces and edges that are there already stay in their sets.
     /// Throws std::invalid_argument, naming what is wrong, where the cell is inverted or flat, one of its
     /// faces already has two cells, or it overlaps a cell at one of its vertices (decided exactly, some 10 us
     /// for each cell there; from_cells is for many). Overlaps elsewhere are find_overlaps()'s matter.
     CellHandle add_cell(VertexHandle v0, VertexHandle v1, VertexHandle v2, VertexHandle v3);
 
     // ---- counts and ranges
-    /// Numbers of indices in use, deleted entities included until garbage_collection().
+    ///@{
+    /// Number of indices in use, deleted entities included until garbage_collection(). The first question for
+    /// edges numbers them, as request_edges() does.
     Index n_vertices() const { return static_cast<Index>(points_.size()); }
     Index n_cells() const { return static_cast<Index>(cells_.size()); }
     Index n_halffaces() const { return 4 * n_cells(); }
     Index n_edges() const;
     Index n_halfedges() const { return 2 * n_edges(); }
     Index n_faces() const;
+    ///@}
+    /// Number of faces that have one cell only.
     Index n_boundary_faces() const { return n_boundary_; }
 
+    ///@{
     /// All that are not deleted, in ascending order, as smart handles.
     EntityRange<VertexHandle> vertices() const;
     EntityRange<EdgeHandle> edges() const;
@@ -80,19 +92,24 @@ class TetMesh : public TetNavigation {
     EntityRange<FaceHandle> faces() const;
     EntityRange<CellHandle> cells() const;
     EntityRange<HalffaceHandle> halffaces() const;
+    ///@}
     /// Half-faces that have no opposite, seen from their cell; their vertices turn counter-clockwise from
     /// outside.
     EntityRange<HalffaceHandle> boundary_halffaces() const;
+    /// The same as faces, which get numbers.
     EntityRange<FaceHandle> boundary_faces() const;
 
     // ---- geometry
-    const Point& point(VertexHandle v) const { return points_[v.idx()]; }
+    const Point& point(VertexHandle v) const { return points_[v.idx()]; }  ///< where a vertex is
+    /// Moves a vertex. Nobody checks that its cells stay positively oriented.
     void set_point(VertexHandle v, const Point& p) { points_[v.idx()] = p; }
+    /// The places of all vertices by index, deleted ones included. Valid until one is added.
     std::span<const Point> points() const { return {points_.data(), points_.size()}; }
-    std::array<Point, 4> cell_points(CellHandle c) const;
+    std::array<Point, 4> cell_points(CellHandle c) const;  ///< in the order of cell_vertices
 
     // ---- cells and half-faces
-    std::array<VertexHandle, 4> cell_vertices(CellHandle c) const;
+    std::array<VertexHandle, 4> cell_vertices(CellHandle c) const;  ///< positively oriented
+    /// That of a local number, 0 to 3.
     VertexHandle cell_vertex(CellHandle c, int local) const {
         return VertexHandle(cells_[c.idx()].vertices[local]);
     }
@@ -105,10 +122,13 @@ class TetMesh : public TetNavigation {
     /// Local number of the edge in the cell, -1 where the cell doesn't have both.
     int local_edge(CellHandle c, VertexHandle a, VertexHandle b) const;
 
+    /// The face of the cell opposite its local vertex of that number.
     static HalffaceHandle halfface(CellHandle c, int local_face) {
         return HalffaceHandle(4 * c.idx() + local_face);
     }
+    /// The cell from which the half-face is seen.
     static CellHandle incident_cell(HalffaceHandle hf) { return CellHandle(hf.idx() / 4); }
+    /// The number of the half-face in its cell, 0 to 3.
     static int local_face(HalffaceHandle hf) { return static_cast<int>(hf.idx() % 4); }
     /// The same face seen from the cell on its other side; invalid on the boundary.
     HalffaceHandle opposite_halfface_handle(HalffaceHandle hf) const {
@@ -119,45 +139,56 @@ class TetMesh : public TetNavigation {
     /// The half-face of these three vertices that turns as given if there is one, else the other way round;
     /// invalid where there is no such face.
     HalffaceHandle find_halfface(VertexHandle a, VertexHandle b, VertexHandle c) const;
+    /// The cell of these vertices, in whatever order; invalid where there is none. Cost: the cells at a.
     CellHandle find_cell(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d) const;
+    ///@{
+    /// Whether the face has one cell only; for a cell, whether one of its faces has; for vertices and edges,
+    /// whether such a face has them. Cost: the cells there.
     bool is_boundary(HalffaceHandle hf) const { return !opposite_halfface_handle(hf).is_valid(); }
     bool is_boundary(CellHandle c) const;
     bool is_boundary(VertexHandle v) const;
     bool is_boundary(EdgeHandle e) const;
     bool is_boundary(HalfedgeHandle h) const { return is_boundary(edge_handle(h)); }
     bool is_boundary(FaceHandle f) const { return is_boundary(halfface_handle(f, 0)); }
+    ///@}
 
     // ---- incidence
     /// Cells at a vertex. Cost: their number.
     CellList vc_range(VertexHandle v) const;
     /// Vertices that share an edge with a vertex, ascending.
     VertexList vv_range(VertexHandle v) const;
-    EdgeList ve_range(VertexHandle v) const;
+    EdgeList ve_range(VertexHandle v) const;  ///< edges at a vertex, ascending
     /// Cells round an edge: in turning order, from one boundary face to the other if it has any.
     CellList ec_range(EdgeHandle e) const;
+    ///@{
     /// The same for an edge given by a cell and a local number, or by its ends (empty where there is no such
     /// edge).
     CellList cells_around(CellHandle c, int local_edge) const;
     CellList cells_around(VertexHandle a, VertexHandle b) const;
-    FaceList ef_range(EdgeHandle e) const;
+    ///@}
+    FaceList ef_range(EdgeHandle e) const;  ///< faces at an edge, in the order of halffaces_around
     /// Half-faces at an edge, one a face: of faces with two cells the one with the lower index.
     boost::container::small_vector<HalffaceHandle, 48> halffaces_around(CellHandle c, int local_edge) const;
-    CellList cc_range(CellHandle c) const;
+    CellList cc_range(CellHandle c) const;  ///< the cells beyond its faces, at most four
 
     // ---- edges and faces by handle
+    ///@{
     /// Numbers them now if they aren't; release_* forgets the numbers, which has_* tells. Properties need
-    /// them.
+    /// them, and keep them from being released (std::logic_error).
     void request_edges() const;
     void request_faces() const;
     void release_edges();
     void release_faces();
     bool has_edges() const { return edges_.has_value(); }
     bool has_faces() const { return faces_.has_value(); }
+    ///@}
 
+    /// That of a local number, 0 to 5, in the order of tet::edge_vertices.
     EdgeHandle edge_handle(CellHandle c, int local_edge) const;
-    FaceHandle face_handle(HalffaceHandle hf) const;
+    FaceHandle face_handle(HalffaceHandle hf) const;  ///< that it is a side of
     /// The end with the lower vertex index first.
     std::array<VertexHandle, 2> edge_vertices(EdgeHandle e) const;
+    /// As its first half-face turns.
     std::array<VertexHandle, 3> face_vertices(FaceHandle f) const {
         return halfface_vertices(halfface_handle(f, 0));
     }
@@ -165,20 +196,29 @@ class TetMesh : public TetNavigation {
     std::pair<CellHandle, int> edge_place(EdgeHandle e) const;
     /// Side 0 always has a cell; side 1 is invalid on the boundary.
     HalffaceHandle halfface_handle(FaceHandle f, int side) const;
+    ///@{
+    /// The edge or face between vertices; invalid where there is none. Cost: the cells at a.
     EdgeHandle find_edge(VertexHandle a, VertexHandle b) const;
     FaceHandle find_face(VertexHandle a, VertexHandle b, VertexHandle c) const;
+    ///@}
+    /// Side 0 leaves the end with the lower index, side 1 the other.
     HalfedgeHandle halfedge_handle(EdgeHandle e, int side) const {
         return HalfedgeHandle(2 * e.idx() + side);
     }
+    /// That it is one of the two of.
     EdgeHandle edge_handle(HalfedgeHandle h) const { return EdgeHandle(h.idx() / 2); }
+    /// The same edge, the other way.
     HalfedgeHandle opposite_halfedge_handle(HalfedgeHandle h) const { return HalfedgeHandle(h.idx() ^ 1U); }
+    ///@{
+    /// The end that a half-edge leaves, and the one that it comes to.
     VertexHandle from_vertex_handle(HalfedgeHandle h) const {
         return edge_vertices(edge_handle(h))[h.idx() & 1U];
     }
     VertexHandle to_vertex_handle(HalfedgeHandle h) const {
         return edge_vertices(edge_handle(h))[1 - (h.idx() & 1U)];
     }
-    EdgeList fe_range(FaceHandle f) const;
+    ///@}
+    EdgeList fe_range(FaceHandle f) const;  ///< the three edges of a face
 
     // ---- edits
     /// Splits the edge, and every cell round it, at a new vertex; `ratio` places it between the edge's ends,
@@ -215,6 +255,9 @@ class TetMesh : public TetNavigation {
     void delete_cell(CellHandle c);
     /// Marks the vertices that have no cell as deleted.
     void delete_isolated_vertices();
+    ///@{
+    /// Whether the entity is gone, its index being free after garbage_collection(). Edges and faces go with
+    /// their last cell.
     bool is_deleted(CellHandle c) const { return !deleted_cells_.empty() && deleted_cells_[c.idx()] != 0; }
     bool is_deleted(VertexHandle v) const {
         return !deleted_vertices_.empty() && deleted_vertices_[v.idx()] != 0;
@@ -223,6 +266,8 @@ class TetMesh : public TetNavigation {
     bool is_deleted(FaceHandle f) const;
     bool is_deleted(HalfedgeHandle h) const { return is_deleted(edge_handle(h)); }
     bool is_deleted(HalffaceHandle hf) const { return is_deleted(incident_cell(hf)); }
+    ///@}
+    /// Whether garbage_collection() has anything to do.
     bool has_deleted() const { return !deleted_cells_.empty() || !deleted_vertices_.empty(); }
     /// Takes deleted entities out; the others keep their order. Sets and properties follow.
     IndexMaps garbage_collection();
@@ -244,33 +289,42 @@ class TetMesh : public TetNavigation {
                       std::type_identity_t<T> default_value = initial_value<T>());
     template <class Entity, class T>
     bool get_property_handle(PropertyHandle<Entity, T>& ph, const std::string& name) const;
+    /// Its values are lost and the handle is invalid from then on.
     template <class Entity, class T>
     void remove_property(PropertyHandle<Entity, T>& ph);
+    ///@{
+    /// The value of an entity, to be read or changed. The handle must be of a property of this mesh.
     template <class Entity, class T>
     typename Property<T>::Stored& property(PropertyHandle<Entity, T> ph, std::type_identity_t<Entity> h);
     template <class Entity, class T>
     const typename Property<T>::Stored& property(PropertyHandle<Entity, T> ph,
                                                  std::type_identity_t<Entity> h) const;
+    ///@}
     /// All values, indexable by handles of the kind.
     template <class Entity, class T>
     PropertyView<Entity, T> property(PropertyHandle<Entity, T> ph) {
         return PropertyView<Entity, T>(values(ph));
     }
+    /// All properties of a kind, for whoever doesn't know their names or types.
     const PropertyList& properties(EntityKind kind) const { return properties_[static_cast<int>(kind)]; }
 
     /// Properties of the mesh as a whole: one value each.
     template <class T>
     void add_property(MPropHandleT<T>& ph, const std::string& name,
                       std::type_identity_t<T> value = initial_value<T>());
+    ///@{
+    /// The value, to be read or changed.
     template <class T>
     typename Property<T>::Stored& property(MPropHandleT<T> ph);
     template <class T>
     const typename Property<T>::Stored& property(MPropHandleT<T> ph) const;
-    const PropertyList& mesh_properties() const { return mesh_properties_; }
+    ///@}
+    const PropertyList& mesh_properties() const { return mesh_properties_; }  ///< all of them
 
     // ---- marks of entities: selected, tagged, feature, locked, hidden
-    /// Makes place for marks, a byte an entity, until they are released as often as requested. What a split
-    /// creates has the marks of what it came from.
+    ///@{
+    /// Makes place for marks, a byte an entity, until they are released as often as requested; has_* tells
+    /// whether they are there. What a split creates has the marks of what it came from.
     template <class Entity>
     void request_status();
     template <class Entity>
@@ -291,6 +345,8 @@ class TetMesh : public TetNavigation {
     bool has_edge_status() const { return has_status<EdgeHandle>(); }
     bool has_face_status() const { return has_status<FaceHandle>(); }
     bool has_cell_status() const { return has_status<CellHandle>(); }
+    ///@}
+    ///@{
     /// Whether the entity is deleted, and its marks.
     Status status(VertexHandle v) { return {is_deleted(v), status_bits(v)}; }
     Status status(EdgeHandle e) { return {is_deleted(e), status_bits(e)}; }
@@ -300,6 +356,7 @@ class TetMesh : public TetNavigation {
     ConstStatus status(EdgeHandle e) const { return {is_deleted(e), status_bits(e)}; }
     ConstStatus status(FaceHandle f) const { return {is_deleted(f), status_bits(f)}; }
     ConstStatus status(CellHandle c) const { return {is_deleted(c), status_bits(c)}; }
+    ///@}
 
     // ---- named sets
     /// A new, empty set. Throws std::invalid_argument where the kind has a set of that name or the rule
@@ -309,11 +366,16 @@ class TetMesh : public TetNavigation {
     SetHandle add_set(const std::string& name, EntityKind kind);
     /// The set of that name and kind; invalid where there is none.
     SetHandle find_set(const std::string& name, EntityKind kind) const { return sets_.find(name, kind); }
+    /// Sets are numbered from 0, of all kinds together, and are never removed.
     Index n_sets() const { return sets_.size(); }
+    /// Its name, kind and rule. The handle must be of a set of this mesh.
     const SetInfo& set_info(SetHandle s) const { return sets_.info(s); }
-    /// Number of members. Cost: one pass over the mesh.
+    /// Number of members; costs what a list of them does.
     std::size_t set_size(SetHandle s) const;
 
+    ///@{
+    /// Whether the entity is a member; an edge may be given by a cell and its local number. False for one of
+    /// another kind than the set's.
     bool contains(SetHandle s, VertexHandle v) const { return sets_.contains(combination(v), s); }
     bool contains(SetHandle s, CellHandle c) const { return sets_.contains(combination(c), s); }
     bool contains(SetHandle s, HalffaceHandle hf) const { return sets_.contains(combination(hf), s); }
@@ -322,7 +384,11 @@ class TetMesh : public TetNavigation {
         return sets_.contains(combination(c, local_edge), s);
     }
     bool contains(SetHandle s, EdgeHandle e) const;
+    ///@}
 
+    ///@{
+    /// Puts the entity in the set, or takes it out; nothing changes where it is so already. Throws
+    /// std::invalid_argument where it is of another kind than the set's members.
     void insert(SetHandle s, VertexHandle v);
     void insert(SetHandle s, CellHandle c);
     void insert(SetHandle s, HalffaceHandle hf);  ///< the face, whichever of its half-faces is given
@@ -335,14 +401,27 @@ class TetMesh : public TetNavigation {
     void erase(SetHandle s, FaceHandle f) { erase(s, halfface_handle(f, 0)); }
     void erase(SetHandle s, CellHandle c, int local_edge);
     void erase(SetHandle s, EdgeHandle e);
+    ///@}
+    ///@{
+    /// The same for many at once, some twenty times faster than one by one.
+    void insert(SetHandle s, std::span<const VertexHandle> vertices);
+    void insert(SetHandle s, std::span<const CellHandle> cells);
+    ///@}
 
+    ///@{
     /// Members, ascending. Faces by one half-face each, that with the lower index; edges by cell and local
-    /// number, the lowest cell first.
+    /// number, the lowest cell first. Of a set of another kind there are none.
+    ///
+    /// Cost: the number of members. Only the first question about sets of a kind after an edit takes a pass
+    /// over the mesh, that lists all of them at once: 4 bytes a member until the next edit. Changing a set by
+    /// insert or erase makes only that set be listed anew. Several threads may ask.
     std::vector<VertexHandle> vertex_members(SetHandle s) const;
     std::vector<CellHandle> cell_members(SetHandle s) const;
     std::vector<HalffaceHandle> face_members(SetHandle s) const;
     std::vector<std::pair<CellHandle, int>> edge_members(SetHandle s) const;
+    ///@}
 
+    ///@{
     /// The sets that an entity is in, as an interned number (0: none), and what the number stands for,
     /// ascending.
     CombinationId combination(VertexHandle v) const {
@@ -354,6 +433,7 @@ class TetMesh : public TetNavigation {
     }
     CombinationId combination(CellHandle c, int local_edge) const { return row(c).edges[local_edge]; }
     std::span<const SetHandle> sets_of(CombinationId id) const { return sets_.combination(id); }
+    ///@}
 
   private:
     /// What a step from cell to cell reads and writes, so that it takes one line of the cache.
@@ -383,6 +463,13 @@ class TetMesh : public TetNavigation {
     void change_combination(SetHandle s, HalffaceHandle hf, bool in);
     void change_combination(SetHandle s, CellHandle c, int local_edge, bool in);
     void require_kind(SetHandle s, EntityKind kind) const;
+    template <class Add>
+    void for_each_in_rows(EntityKind kind, const Add& add) const;
+    void list_members(EntityKind kind, MemberLists::Lists& lists) const;
+    template <class Use>
+    auto with_members(SetHandle s, const Use& use) const;
+    template <class Member, class Make>
+    std::vector<Member> members(SetHandle s, EntityKind kind, const Make& make) const;
 
     template <class Entity, class T>
     Property<T>& values(PropertyHandle<Entity, T> ph) const;
@@ -454,6 +541,7 @@ class TetMesh : public TetNavigation {
     NamedSets sets_;
     Column<CombinationId> vertex_combinations_;  ///< empty while no vertex is in a set
     Column<NamedSets::RowId> cell_rows_;         ///< empty while no edge, face or cell is in a set
+    mutable MemberLists members_;
 };
 
 inline std::array<Point, 4> TetMesh::cell_points(CellHandle c) const {

@@ -11,6 +11,7 @@ namespace maille::volmesh {
 template <class H>
 class EntityRange : public std::ranges::view_interface<EntityRange<H>> {
   public:
+    /// Goes forward, over what is left out; gives smart handles.
     class Iterator {
       public:
         using value_type = SmartHandle<H>;
@@ -53,10 +54,14 @@ class EntityRange : public std::ranges::view_interface<EntityRange<H>> {
     enum class Filter : std::uint8_t { nothing, deleted, interior };
 
     EntityRange() = default;
+    /// TetMesh::cells and its like make these; n is the number of indices in use.
     EntityRange(const TetMesh& mesh, typename H::Index n, Filter filter)
         : mesh_(&mesh), n_(n), filter_(filter) {}
+    ///@{
+    /// Valid until the mesh is moved or gets more entities.
     Iterator begin() const { return Iterator(*this, 0); }
     Iterator end() const { return Iterator(*this, n_); }
+    ///@}
 
   private:
     const TetMesh* mesh_ = nullptr;
@@ -66,5 +71,7 @@ class EntityRange : public std::ranges::view_interface<EntityRange<H>> {
 
 }  // namespace maille::volmesh
 
+/// @cond
 template <class H>
 inline constexpr bool std::ranges::enable_borrowed_range<maille::volmesh::EntityRange<H>> = true;
+/// @endcond

@@ -159,6 +159,7 @@ bool renumber(const CavityParts<Part>& before, const CavityParts<Part>& born, co
 
 void TetMesh::replace_cells(const Retriangulation& change) {
     Cavity cavity = look_into(change);
+    members_.forget();
     relink(change, cavity);
     const auto cells = cell_vertex_indices();
     bool has_vanished = change.old_cells.size() > change.new_cells.size() || change.gone.is_valid();

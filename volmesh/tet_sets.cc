@@ -47,6 +47,7 @@ void TetMesh::change_row(CellHandle c, const Change& change) {
 
 void TetMesh::change_combination(SetHandle s, VertexHandle v, bool in) {
     require_kind(s, EntityKind::vertex);
+    members_.forget(s.idx());
     if (vertex_combinations_.empty()) vertex_combinations_.resize(points_.size(), 0);
     CombinationId& id = vertex_combinations_[v.idx()];
     id = in ? sets_.with(id, s) : sets_.without(id, s);
@@ -54,6 +55,7 @@ void TetMesh::change_combination(SetHandle s, VertexHandle v, bool in) {
 
 void TetMesh::change_combination(SetHandle s, CellHandle c, bool in) {
     require_kind(s, EntityKind::cell);
+    members_.forget(s.idx());
     change_row(c, [&](NamedSets::Row& row) {
         row.cell = in ? sets_.with(row.cell, s) : sets_.without(row.cell, s);
     });
@@ -61,6 +63,7 @@ void TetMesh::change_combination(SetHandle s, CellHandle c, bool in) {
 
 void TetMesh::change_combination(SetHandle s, HalffaceHandle hf, bool in) {
     require_kind(s, EntityKind::face);
+    members_.forget(s.idx());
     const CombinationId old = combination(hf);
     const CombinationId id = in ? sets_.with(old, s) : sets_.without(old, s);
     for (HalffaceHandle side : {hf, opposite_halfface_handle(hf)})
@@ -70,6 +73,7 @@ void TetMesh::change_combination(SetHandle s, HalffaceHandle hf, bool in) {
 
 void TetMesh::change_combination(SetHandle s, CellHandle c, int local_edge, bool in) {
     require_kind(s, EntityKind::edge);
+    members_.forget(s.idx());
     const CombinationId old = combination(c, local_edge);
     const CombinationId id = in ? sets_.with(old, s) : sets_.without(old, s);
     const auto [i, j] = tet::edge_vertices[local_edge];
@@ -77,6 +81,46 @@ void TetMesh::change_combination(SetHandle s, CellHandle c, int local_edge, bool
     const VertexHandle b = cell_vertex(c, j);
     for (CellHandle around : cells_around(c, local_edge))
         change_row(around, [&](NamedSets::Row& row) { row.edges[this->local_edge(around, a, b)] = id; });
+}
+
+namespace {
+
+/// Calls `compute` once for each number, and then remembers.
+template <class Compute>
+class Memory {
+  public:
+    explicit Memory(const Compute& compute) : compute_(compute) {}
+    std::uint32_t operator()(std::uint32_t number) {
+        if (number >= results_.size()) results_.resize(number + 1, NamedSets::unknown);
+        if (results_[number] == NamedSets::unknown) results_[number] = compute_(number);
+        return results_[number];
+    }
+
+  private:
+    Compute compute_;
+    std::vector<std::uint32_t> results_;
+};
+
+}  // namespace
+
+void TetMesh::insert(SetHandle s, std::span<const VertexHandle> vertices) {
+    require_kind(s, EntityKind::vertex);
+    members_.forget(s.idx());
+    if (vertex_combinations_.empty()) vertex_combinations_.resize(points_.size(), 0);
+    Memory joined([&](CombinationId id) { return sets_.with(id, s); });
+    for (VertexHandle v : vertices) vertex_combinations_[v.idx()] = joined(vertex_combinations_[v.idx()]);
+}
+
+void TetMesh::insert(SetHandle s, std::span<const CellHandle> cells) {
+    require_kind(s, EntityKind::cell);
+    members_.forget(s.idx());
+    if (cell_rows_.empty()) cell_rows_.resize(cells_.size(), 0);
+    Memory joined([&](NamedSets::RowId id) {
+        NamedSets::Row row = sets_.row(id);
+        row.cell = sets_.with(row.cell, s);
+        return sets_.intern(row);
+    });
+    for (CellHandle c : cells) cell_rows_[c.idx()] = joined(cell_rows_[c.idx()]);
 }
 
 void TetMesh::insert(SetHandle s, VertexHandle v) {
@@ -117,61 +161,6 @@ void TetMesh::erase(SetHandle s, EdgeHandle e) {
 bool TetMesh::contains(SetHandle s, EdgeHandle e) const {
     const auto [c, local] = edge_place(e);
     return contains(s, c, local);
-}
-
-// ---- members
-// --------------------------------------------------------------------------------------------------------
-
-std::vector<VertexHandle> TetMesh::vertex_members(SetHandle s) const {
-    std::vector<VertexHandle> members;
-    for (Index v = 0; v < vertex_combinations_.size(); ++v)
-        if (contains(s, VertexHandle(v)) && !is_deleted(VertexHandle(v))) members.emplace_back(v);
-    return members;
-}
-
-std::vector<CellHandle> TetMesh::cell_members(SetHandle s) const {
-    std::vector<CellHandle> members;
-    for (Index c = 0; c < cell_rows_.size(); ++c)
-        if (contains(s, CellHandle(c)) && !is_deleted(CellHandle(c))) members.emplace_back(c);
-    return members;
-}
-
-std::vector<HalffaceHandle> TetMesh::face_members(SetHandle s) const {
-    std::vector<HalffaceHandle> members;
-    for (Index c = 0; c < cell_rows_.size(); ++c) {
-        if (cell_rows_[c] == 0 || is_deleted(CellHandle(c))) continue;
-        for (int f = 0; f < 4; ++f) {
-            const HalffaceHandle hf = halfface(CellHandle(c), f);
-            if (hf < opposite_halfface_handle(hf) && contains(s, hf)) members.push_back(hf);
-        }
-    }
-    return members;
-}
-
-std::vector<std::pair<CellHandle, int>> TetMesh::edge_members(SetHandle s) const {
-    std::vector<std::pair<CellHandle, int>> members;
-    for (Index c = 0; c < cell_rows_.size(); ++c) {
-        if (cell_rows_[c] == 0 || is_deleted(CellHandle(c))) continue;
-        for (int e = 0; e < 6; ++e)
-            if (contains(s, CellHandle(c), e) &&
-                std::ranges::min(cells_around(CellHandle(c), e)) == CellHandle(c))
-                members.emplace_back(CellHandle(c), e);
-    }
-    return members;
-}
-
-std::size_t TetMesh::set_size(SetHandle s) const {
-    switch (set_info(s).kind) {
-        case EntityKind::vertex:
-            return vertex_members(s).size();
-        case EntityKind::edge:
-            return edge_members(s).size();
-        case EntityKind::face:
-            return face_members(s).size();
-        case EntityKind::cell:
-            return cell_members(s).size();
-    }
-    return 0;
 }
 
 // A cell that add_cell has just linked: its edges and faces that others have too are in the same sets there.

@@ -8,11 +8,12 @@
 
 namespace maille::volmesh {
 
+/// OpenMesh's traits that put Eigen's vectors in its meshes.
 struct TriMeshTraits : OpenMesh::DefaultTraits {
-    using Point = Eigen::Vector3d;
-    using Normal = Eigen::Vector3d;
-    using TexCoord2D = Eigen::Vector2d;
-    using TexCoord3D = Eigen::Vector3d;
+    using Point = Eigen::Vector3d;       ///< as the mesh's
+    using Normal = Eigen::Vector3d;      ///< of length 1 where OpenMesh makes it
+    using TexCoord2D = Eigen::Vector2d;  ///< not used here
+    using TexCoord3D = Eigen::Vector3d;  ///< not used here
 };
 
 /// Surfaces: tessellated primitives and extracted boundaries.

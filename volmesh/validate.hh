@@ -10,6 +10,7 @@ namespace maille::volmesh {
 /// What is wrong with a mesh, in words; nothing where it is right.
 struct Validation {
     std::vector<std::string> errors;  ///< at most `max_errors` in full, then their number
+    /// Whether nothing is wrong.
     bool ok() const { return errors.empty(); }
 };
 

@@ -8,7 +8,6 @@
 #include "tests/support/random_sets.hh"
 #include "volmesh/measure.hh"
 #include "volmesh/set_algebra.hh"
-#include "volmesh/set_members.hh"
 
 using namespace maille;
 using namespace maille::volmesh;
@@ -185,19 +184,4 @@ TEST_CASE("sets of the wrong kind, or of a name that is taken, are refused") {
     CHECK_THROWS_AS(set_boundary(mesh, "x", faces), std::invalid_argument);
     CHECK_THROWS_AS(set_skin(mesh, "x", cells, faces), std::invalid_argument);
     CHECK_THROWS_AS(set_union(mesh, "x", {SetHandle(999)}), std::invalid_argument);
-}
-
-TEST_CASE("members gathered at once are those that each set tells") {
-    for (unsigned seed = 1; seed <= 3; ++seed) {
-        const TetMesh mesh = mesh_with_sets(seed);
-        const SetMembers gathered(mesh);
-        for (std::uint32_t i = 0; i < mesh.n_sets(); ++i) {
-            const SetHandle s(i);
-            CHECK(gathered.size(s) == mesh.set_size(s));
-            CHECK(std::ranges::equal(gathered.vertices(s), mesh.vertex_members(s)));
-            CHECK(std::ranges::equal(gathered.edges(s), mesh.edge_members(s)));
-            CHECK(std::ranges::equal(gathered.faces(s), mesh.face_members(s)));
-            CHECK(std::ranges::equal(gathered.cells(s), mesh.cell_members(s)));
-        }
-    }
 }
