@@ -50,7 +50,7 @@ ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmes
     Improver improver(mesh, std::move(shapes), options, projector, result);
     result.worst_before = improver.worst();
     // What this leaves below good_enough the passes better.
-    improver.raise_mean(0.75 * options.good_enough);
+    improver.raise_mean(options.good_enough);
     auto tries_left = static_cast<std::size_t>(std::ceil(options.tries_per_cell * mesh.n_cells()));
     const std::size_t most_tries = (tries_left + 3) / 4;
     bool all_moves = false;

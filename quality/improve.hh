@@ -52,9 +52,9 @@ struct ImproveResult {
 /// splits edges, the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R. Shewchuk,
 /// "Aggressive tetrahedral mesh improvement", 2007.
 ///
-/// No move lowers the least objective of the cells that it changes, but that one for the mean may where it
-/// stays above both three quarters of `good_enough` and the mesh's least. So this never goes down, and an
-/// inverted cell may come right but none arises. Sets and properties pass on by their rules, the volume of
+/// No move lowers the least objective of the cells that it changes, but that one for the mean may where all
+/// of them stay good enough. So the mesh's least never goes down, and an inverted cell may come right but
+/// none arises. Sets and properties pass on by their rules, the volume of
 /// each cell set and the area of each flat face set stay. Vertices keep to their geometric support: the
 /// surfaces that their faces' sets name, where `projector` knows these; else the planes of their faces, where
 /// these are flat; else they stay. So do vertices in a vertex set, on an edge of an edge set, and where two
