@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <system_error>
 
 #include <fmt/core.h>
@@ -22,19 +23,18 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
     if (!file) throw InputError(fmt::format("{}: cannot be read: {}", name_, std::strerror(errno)));
     const auto expected = std::filesystem::file_size(path, error);
     if (error) throw InputError(fmt::format("{}: cannot be read: {}", name_, error.message()));
-    // Left uninitialised: it is filled at once.
-    data_.reset(new char[expected]);
-    size_ = std::fread(data_.get(), 1, expected, file.get());
-    if (size_ != expected) throw InputError(name_ + ": cannot be read to its end");
+    data_.grow(expected);
+    if (std::fread(data_.data(), 1, expected, file.get()) != expected)
+        throw InputError(name_ + ": cannot be read to its end");
 }
 
 void InputFile::fail_at_line(const char* place, const std::string& message) const {
-    const auto line = 1 + std::count(static_cast<const char*>(data_.get()), place, '\n');
+    const auto line = 1 + std::count(static_cast<const char*>(data_.data()), place, '\n');
     throw InputError(fmt::format("{}:{}: {}", name_, line, message));
 }
 
 void InputFile::fail_at_byte(const char* place, const std::string& message) const {
-    throw InputError(fmt::format("{}: byte {}: {}", name_, place - data_.get(), message));
+    throw InputError(fmt::format("{}: byte {}: {}", name_, place - data_.data(), message));
 }
 
 }  // namespace maille::volmesh::io

@@ -2,9 +2,10 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
+
+#include "volmesh/column.hh"
 
 namespace maille::volmesh::io {
 
@@ -13,7 +14,7 @@ class InputFile {
   public:
     explicit InputFile(const std::filesystem::path& path);
 
-    std::string_view text() const { return {data_.get(), size_}; }
+    std::string_view text() const { return {data_.data(), data_.size()}; }
     const std::string& name() const { return name_; }
 
     /// Throws InputError: "<name>:<line>: <message>" for a place in the text, "<name>: byte <offset>:
@@ -23,8 +24,7 @@ class InputFile {
 
   private:
     std::string name_;
-    std::size_t size_ = 0;
-    std::unique_ptr<char[]> data_;
+    Column<char> data_;
 };
 
 }  // namespace maille::volmesh::io

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "volmesh/error.hh"
@@ -15,10 +16,15 @@ namespace {
 using Index = TetMesh::Index;
 
 void turn_inverted_cells(MeshDraft& draft) {
-    tbb::parallel_for(std::size_t{0}, draft.cells.size(), [&](std::size_t i) {
-        auto& cell = draft.cells[i];
-        const auto point = [&](int k) -> const Point& { return draft.points[cell[k]]; };
-        if (orientation(point(0), point(1), point(2), point(3)) < 0) std::swap(cell[2], cell[3]);
+    constexpr std::size_t ahead = 16;  // cells whose points are brought near in memory before they are asked
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, draft.cells.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            if (i + ahead < range.end())
+                for (Index v : draft.cells[i + ahead]) __builtin_prefetch(&draft.points[v]);
+            auto& cell = draft.cells[i];
+            const auto point = [&](int k) -> const Point& { return draft.points[cell[k]]; };
+            if (orientation(point(0), point(1), point(2), point(3)) < 0) std::swap(cell[2], cell[3]);
+        }
     });
 }
 

@@ -72,8 +72,10 @@ void read_nodes41(Contents& contents, MshSource& source) {
 
 void read_elements41(Contents& contents, MshSource& source) {
     const std::size_t n_blocks = source.count("the number of element blocks", 4);
-    for (const char* what : {"the number of elements", "the lowest element", "the highest element"})
-        source.size(what);
+    // A tetrahedron takes five numbers of at least a digit and a blank.
+    contents.draft.cells.reserve(std::min<std::size_t>(
+        source.size("the number of elements"), source.text().n_left() / (source.is_binary() ? 40 : 10)));
+    for (const char* what : {"the lowest element", "the highest element"}) source.size(what);
     for (std::size_t block = 0; block < n_blocks; ++block) {
         const std::int32_t dimension = source.integer("the dimension of an entity");
         const std::int32_t entity = source.integer("the tag of an entity");

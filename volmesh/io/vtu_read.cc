@@ -395,7 +395,7 @@ void VtuReader::require_value_each(std::size_t n) const {
 
 /// Calls the action for the place of each flag that is not 0. Most sets have few members.
 template <class Action>
-void for_each_flag(const std::vector<std::uint8_t>& flags, const Action& action) {
+void for_each_flag(std::span<const std::uint8_t> flags, const Action& action) {
     constexpr std::size_t step = 64;
     for (std::size_t begin = 0; begin < flags.size(); begin += step) {
         const std::size_t end = std::min(begin + step, flags.size());
@@ -436,7 +436,10 @@ bool VtuReader::read_set(pugi::xml_node node, const VtuFile::Array& array) {
         if (const auto rule = node.attribute(vtk::rule_attribute(kind_of_set).c_str()))
             set.rule = parse_set_rule(rule.value(), kind_of_set);
     }
-    const std::vector<std::uint8_t> flags = array.numbers.as_flags();
+    std::vector<std::uint8_t> converted;
+    std::span flags(reinterpret_cast<const std::uint8_t*>(array.numbers.bytes.data()),
+                    array.numbers.bytes.size());
+    if (array.numbers.type != "UInt8" || array.numbers.is_text) flags = converted = array.numbers.as_flags();
     require_value_each(flags.size());
     std::array<std::vector<Index>, 4> members;
     for_each_flag(flags, [&](std::size_t i) {
