@@ -8,14 +8,13 @@
 
 #include "volmesh/error.hh"
 #include "volmesh/io/input_file.hh"
+#include "volmesh/io/vtk_names.hh"
 
 namespace maille::volmesh::io {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr std::array kind_names{"vertex", "edge", "face", "cell"};
 
 Path sidecar_of(const Path& mesh_path) {
     return Path(mesh_path).replace_extension(".sets.json");
@@ -28,9 +27,11 @@ struct NamedReferences {
     std::optional<RuleDraft> rule{};
 };
 
-RuleDraft parse_rule(const InputFile& file, const std::string& text, EntityKind kind) {
+/// What the action gives; in what it throws the file is named.
+template <class Action>
+auto in_file(const InputFile& file, const Action& action) {
     try {
-        return parse_set_rule(text, kind);
+        return action();
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", file.name(), error.what()));
     }
@@ -43,17 +44,19 @@ std::vector<NamedReferences> parse_sidecar(const InputFile& file, const MeshDraf
         if (json.at("vertices") != draft.points.size() || json.at("cells") != draft.cells.size())
             throw InputError(file.name() + ": tells the sets of another mesh: remove or rename it");
         for (const auto& set : json.at("sets")) {
-            const auto kind = std::ranges::find(kind_names, set.at("kind").get<std::string>());
-            if (kind == kind_names.end()) throw InputError(file.name() + ": has a set of an unknown kind");
+            const EntityKind kind =
+                in_file(file, [&] { return parse_kind(set.at("kind").get<std::string>()); });
             NamedReferences& named = sets.emplace_back();
-            named = {set.at("name"), static_cast<EntityKind>(kind - kind_names.begin()), {}};
+            named = {set.at("name"), kind, {}};
             for (const auto& reference : set.at("references")) {
                 if (!reference.is_number_integer())
                     throw InputError(fmt::format("{}: set '{}' has a reference that is no whole number",
                                                  file.name(), named.name));
                 named.references.push_back(reference.get<long long>());
             }
-            if (set.contains("rule")) named.rule = parse_rule(file, set.at("rule"), named.kind);
+            if (set.contains("rule"))
+                named.rule =
+                    in_file(file, [&] { return parse_set_rule(set.at("rule").get<std::string>(), kind); });
         }
     } catch (const nlohmann::json::exception& error) {
         throw InputError(fmt::format("{}: {}", file.name(), error.what()));
@@ -76,7 +79,8 @@ void ReferenceWriter::commit() {
         for (std::size_t i = 0; i < combinations.size(); ++i)
             if (std::ranges::count(mesh_.sets_of(combinations[i]), SetHandle(s)) > 0)
                 references.push_back(i + 1);
-        sets.push_back({{"name", info.name}, {"kind", kind_names[kind]}, {"references", references}});
+        sets.push_back(
+            {{"name", info.name}, {"kind", vtk::kind_name(info.kind)}, {"references", references}});
         if (const std::string rule = set_rule_text(mesh_, info); !rule.empty()) sets.back()["rule"] = rule;
     }
     const ordered_json json{{"vertices", mesh_.n_vertices()}, {"cells", mesh_.n_cells()}, {"sets", sets}};
