@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -24,8 +25,9 @@ namespace {
 using namespace detail;
 
 Arrangement arrange_pairs(const Scene& scene, const ExactPositions& positions, std::span<const Pair> pairs,
-                          const CsgTree& tree) {
-    PointRegistry registry(positions.points, 1e-6 * diagonal(scene.complex));
+                          const CsgTree& tree, std::size_t most_contacts) {
+    PointRegistry registry(positions.points, 1e-6 * diagonal(scene.complex),
+                           most_contacts - std::min(most_contacts, pairs.size()));
     const Contacts contacts = intersect(scene.complex, positions, pairs, registry);
     const Subdivision subdivision = subdivide(scene.complex, positions, contacts, registry);
     const std::vector<Sides> sides = label_sheets(subdivision, scene.complex, positions, registry, tree);
@@ -33,10 +35,14 @@ Arrangement arrange_pairs(const Scene& scene, const ExactPositions& positions, s
 }
 
 /// Pairs of near facets of different primitives, and of facets without area with all others.
-std::vector<Pair> pairs_to_intersect(const FacetComplex& complex, double margin) {
+std::vector<Pair> pairs_to_intersect(const FacetComplex& complex, double margin, std::size_t most) {
     const std::vector<bool> degenerate = degenerate_facets(complex, positions_as_given(complex));
+    std::size_t count = 0;
     return pairs_of_near_facets(complex, margin, [&](std::uint32_t i, std::uint32_t j) {
-        return complex.facets[i].back != complex.facets[j].back || degenerate[i] || degenerate[j];
+        if (complex.facets[i].back == complex.facets[j].back && !degenerate[i] && !degenerate[j])
+            return false;
+        if (++count > most) fail_for_work(complex, std::array{i, j});
+        return true;
     });
 }
 
@@ -126,15 +132,17 @@ bool is_closed(const FacetComplex& complex) {
 }
 
 Arrangement arrange_once(std::span<const ClosedSurface> primitives, const CsgTree& tree, double weld_distance,
-                         int max_repairs) {
+                         const ArrangeOptions& options) {
     Scene fine = gather(primitives);
     weld(fine, weld_distance);
     if (fine.complex.facets.empty()) return {};
     const CoarseScene coarse = coarsen(fine, weld_distance);
     const Scene& scene = coarse.scene;
-    const std::vector<Pair> pairs = pairs_to_intersect(scene.complex, weld_distance);
-    Arrangement result =
-        arrange_pairs(scene, positions_on_planes(scene.complex, pairs, weld_distance), pairs, tree);
+    const auto most_contacts = static_cast<std::size_t>(
+        std::ceil(options.most_contacts * static_cast<double>(scene.complex.facets.size())));
+    const std::vector<Pair> pairs = pairs_to_intersect(scene.complex, weld_distance, most_contacts);
+    Arrangement result = arrange_pairs(scene, positions_on_planes(scene.complex, pairs, weld_distance), pairs,
+                                       tree, most_contacts);
     for (int round = 0;; ++round) {
         weld(result, weld_distance);
         if (const auto open = open_facet(result.complex))
@@ -150,13 +158,13 @@ Arrangement arrange_once(std::span<const ClosedSurface> primitives, const CsgTre
             mark_whole_facets(result, primitives);
             return result;
         }
-        if (round == max_repairs)
+        if (round == options.max_repairs)
             fail_at(
                 result, std::array{crossing->front().first, crossing->front().second},
                 "come so near to each other that they cannot be told apart in double precision; move them "
                 "apart or make them coincide");
         result = arrange_pairs(result, positions_as_given(result.complex), *crossing,
-                               tree_of_regions(result.complex));
+                               tree_of_regions(result.complex), most_contacts);
     }
 }
 
@@ -183,7 +191,9 @@ Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tr
     const double weld_distance = tolerance(gather(primitives).complex, options.weld);
     std::optional<ArrangeError> first;
     for (const double times : {1.0, 10.0, 100.0}) try {
-            return arrange_once(primitives, tree, times * weld_distance, options.max_repairs);
+            return arrange_once(primitives, tree, times * weld_distance, options);
+        } catch (const ArrangeLimitError&) {
+            throw;
         } catch (const ArrangeError& error) {
             if (!first) first = error;
         }

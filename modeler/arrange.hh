@@ -52,6 +52,12 @@ class ArrangeError : public InputError {
     Eigen::Vector3d place_;
 };
 
+/// An arrangement that takes more work than `ArrangeOptions::most_contacts`.
+class ArrangeLimitError : public ArrangeError {
+  public:
+    using ArrangeError::ArrangeError;
+};
+
 struct ArrangeOptions {
     /// Points nearer than this, and points nearer than this to a plane of triangles, are made to coincide;
     /// relative to the diagonal of the scene. Where that leaves surfaces too near to each other, ten times as
@@ -59,6 +65,9 @@ struct ArrangeOptions {
     double weld = 1e-9;
     /// How often the surface is arranged again when the rounding of its points made it cross itself.
     int max_repairs = 8;
+    /// Most pairs of triangles near each other, and points where surfaces cross, together: for each triangle
+    /// that the surfaces have if planar faces are in as few as can be. What takes more would hardly end.
+    double most_contacts = 5000;
 };
 
 /// The surfaces that separate the regions which the tree gives to the primitives (see `owner`): all facets
@@ -74,7 +83,8 @@ struct ArrangeOptions {
 /// its sides (the earliest), or else of the earliest primitive.
 ///
 /// Throws InputError for an index out of range, a point that is not finite or a surface that is not closed;
-/// ArrangeError when the regions found do not close, or when no rounding free of self-intersections is found.
+/// ArrangeError when the regions found do not close, when no rounding free of self-intersections is found, or
+/// when it takes too much work.
 Arrangement arrange(std::span<const ClosedSurface> primitives, const CsgTree& tree,
                     const ArrangeOptions& options = {});
 

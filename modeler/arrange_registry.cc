@@ -4,8 +4,8 @@
 
 namespace maille::modeler::detail {
 
-PointRegistry::PointRegistry(std::vector<ExactPoint> points, double cell)
-    : cell_(cell), points_(std::move(points)) {
+PointRegistry::PointRegistry(std::vector<ExactPoint> points, double cell, std::size_t most_new)
+    : cell_(cell), most_(points.size() + most_new), points_(std::move(points)) {
     cells_.reserve(2 * points_.size());
     for (std::uint32_t i = 0; i < points_.size(); ++i) insert(i);
 }
@@ -21,6 +21,7 @@ std::uint32_t PointRegistry::add(const ExactPoint& point) {
                 for (const auto i : at->second)
                     if (points_[i] == point) return i;
             }
+    if (points_.size() >= most_) throw RegistryFull();
     points_.push_back(point);
     insert(size() - 1);
     return size() - 1;

@@ -108,18 +108,32 @@ Eigen::AlignedBox3d bounding_box(const FacetComplex& complex) {
     return box;
 }
 
-}  // namespace
-
-void fail(const FacetComplex& complex, std::span<const std::uint32_t> facets, const std::string& problem) {
+std::vector<std::uint32_t> primitives_of(const FacetComplex& complex, std::span<const std::uint32_t> facets) {
     std::vector<std::uint32_t> primitives;
     for (const auto f : facets)
         for (const Region r : {complex.facets[f].front, complex.facets[f].back})
             if (r != outside) primitives.push_back(static_cast<std::uint32_t>(r));
     std::ranges::sort(primitives);
     primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
+    return primitives;
+}
+
+const Eigen::Vector3d& place_of(const FacetComplex& complex, std::span<const std::uint32_t> facets) {
+    return complex.points[complex.facets[facets[0]].vertices[0]];
+}
+
+}  // namespace
+
+void fail(const FacetComplex& complex, std::span<const std::uint32_t> facets, const std::string& problem) {
     const auto first_line = problem.substr(0, problem.find('\n'));
-    throw ArrangeError(first_line, std::move(primitives),
-                       complex.points[complex.facets[facets[0]].vertices[0]]);
+    throw ArrangeError(first_line, primitives_of(complex, facets), place_of(complex, facets));
+}
+
+void fail_for_work(const FacetComplex& complex, std::span<const std::uint32_t> facets) {
+    throw ArrangeLimitError(
+        "are among so many that meet each other in so many places that it would hardly end; use fewer or "
+        "simpler solids, or larger facets",
+        primitives_of(complex, facets), place_of(complex, facets));
 }
 
 Scene gather(std::span<const ClosedSurface> primitives) {

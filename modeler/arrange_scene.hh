@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "modeler/arrange.hh"
+#include "modeler/arrange_registry.hh"
 
 namespace maille::modeler::detail {
 
@@ -33,6 +34,9 @@ double tolerance(const FacetComplex& complex, double relative);
 [[noreturn]] void fail(const FacetComplex& complex, std::span<const std::uint32_t> facets,
                        const std::string& problem);
 
+/// The same, with an ArrangeLimitError.
+[[noreturn]] void fail_for_work(const FacetComplex& complex, std::span<const std::uint32_t> facets);
+
 /// Calls f. Where it comes upon something that must not happen, it fails at the facets.
 template <class F>
 auto guarded(const FacetComplex& complex, std::span<const std::uint32_t> facets, const F& f) {
@@ -42,6 +46,8 @@ auto guarded(const FacetComplex& complex, std::span<const std::uint32_t> facets,
         throw;
     } catch (const std::bad_alloc&) {
         throw;
+    } catch (const RegistryFull&) {
+        fail_for_work(complex, facets);
     } catch (const std::exception& error) {
         fail(complex, facets, std::string("cannot be cut where they meet: ") + error.what());
     }

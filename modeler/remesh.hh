@@ -34,6 +34,9 @@ struct RemeshOptions {
     int rounds = 10;            ///< at most so many rounds of collapse, split, flip and smoothing
     double min_angle = 30;      ///< degrees: facets with a smaller angle are worked at
     double smallest_gap = 0.2;  ///< thin sheets make the size smaller, down to so many times the wanted one
+    /// Thin sheets make the size smaller only as far as there come to be about so many times the facets that
+    /// there were and those that the wanted size makes, together.
+    double most_growth = 2;
 };
 
 /// What the remesher did. Angles are in degrees, over the facets that are not frozen.

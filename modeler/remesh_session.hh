@@ -22,8 +22,10 @@ struct Session {
     std::uint64_t snapped = 0;
     std::uint64_t smoothed = 0;
 
+    std::vector<double> wanted_sizes{};  ///< by vertex, of the geometry; where `gap_sizes` are known
     std::vector<double> gap_sizes{};  ///< by vertex, as sheets and curves near it want them; 0: not known yet
     std::uint64_t sized = 0;          ///< when they were found
+    double smallest_gap = options.smallest_gap;
 };
 
 }  // namespace maille::modeler::remeshing

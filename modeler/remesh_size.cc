@@ -328,24 +328,59 @@ void limit_growth(Net& net) {
     }
 }
 
+/// About how many triangles that are not frozen there will be, with these sizes at the vertices.
+double expected_triangles(const Net& net, const std::vector<double>& sizes) {
+    double count = 0;
+    for (Index t = 0; t < net.n_triangles(); ++t) {
+        if (!net.is_alive(t) || net.patch(t).frozen) continue;
+        const auto [a, b, c] = net.corners(t);
+        double size = 0;
+        for (const Index v : net.triangle(t).vertices) size += sizes[v] / 3;
+        count += (b - a).cross(c - a).norm() / 2 / (size * size * std::sqrt(3) / 4);
+    }
+    return count;
+}
+
+/// Makes the smallest sizes larger where there would be too many triangles.
+void limit_count(Session& session) {
+    const Net& net = session.net;
+    std::vector<double>& sizes = session.gap_sizes;
+    std::size_t n_now = 0;
+    for (Index t = 0; t < net.n_triangles(); ++t) n_now += net.is_alive(t) && !net.patch(t).frozen;
+    const double most = session.options.most_growth *
+                        (static_cast<double>(n_now) + expected_triangles(net, session.wanted_sizes));
+    for (;;) {
+        const double excess = expected_triangles(net, sizes) / most;
+        if (excess <= 1 || session.smallest_gap >= 1) return;
+        session.smallest_gap = std::min(1.0, session.smallest_gap * std::max(1.1, std::sqrt(excess)));
+        for (Index v = 0; v < net.n_vertices(); ++v)
+            if (frozen_size(net, v) == 0)
+                sizes[v] = std::max(sizes[v], session.smallest_gap * session.wanted_sizes[v]);
+    }
+}
+
 }  // namespace
 
 void set_sizes(Session& session) {
     Net& net = session.net;
     GapFinder gaps(net);
     std::vector<double>& sizes = session.gap_sizes;
+    std::vector<double>& wanted = session.wanted_sizes;
     sizes.resize(net.n_vertices(), 0);
+    wanted.resize(net.n_vertices(), 0);
     for (Index v = 0; v < net.n_vertices(); ++v) {
         if (net.triangles_at(v).empty()) continue;
         if (const double frozen = frozen_size(net, v); frozen > 0) {
-            sizes[v] = frozen;
+            sizes[v] = wanted[v] = frozen;
             continue;
         }
         // What was found before holds where nothing has changed as far as was looked for it.
         if (sizes[v] > 0 && !gaps.has_changed(v, sizes[v] / sizes_in_gap, session.sized)) continue;
-        const double wanted = wanted_size(session, v);
-        sizes[v] = gaps.size_at(v, wanted, session.options.smallest_gap * wanted);
+        wanted[v] = wanted_size(session, v);
+        sizes[v] = gaps.size_at(v, wanted[v], session.smallest_gap * wanted[v]);
     }
+    // Later there are more triangles because of it.
+    if (session.sized == 0) limit_count(session);
     for (Index v = 0; v < net.n_vertices(); ++v)
         if (!net.triangles_at(v).empty()) net.set_size(v, sizes[v]);
     limit_growth(net);

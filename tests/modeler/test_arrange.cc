@@ -265,3 +265,27 @@ TEST_CASE("an arrangement that fails names the primitives and the place") {
     CHECK(error.place() == Vector3d(0.5, -2, 1e6));
     CHECK(error.problem() == "cannot be cut where they meet");
 }
+
+TEST_CASE("an arrangement that takes too much work fails, and tells where") {
+    const std::vector boxes{box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3})};
+    const CsgTree tree{Operation::join, 0, {leaf(0), leaf(1)}};
+    const Arrangement all = arrange(boxes, tree);
+    int n_failed = 0, n_done = 0;
+    for (double most = 1.0 / 16; most < 100; most *= 1.25) {
+        CAPTURE(most);
+        try {
+            const Arrangement limited = arrange(boxes, tree, {.most_contacts = most});
+            CHECK(limited.complex.points == all.complex.points);
+            CHECK(limited.complex.facets.size() == all.complex.facets.size());
+            ++n_done;
+        } catch (const ArrangeLimitError& error) {
+            // Once it is enough, more is enough.
+            CHECK(n_done == 0);
+            ++n_failed;
+            CHECK(error.primitives() == std::vector<std::uint32_t>{0, 1});
+            CHECK(Eigen::AlignedBox3d(Vector3d(0, 0, 0), Vector3d(3, 3, 3)).contains(error.place()));
+        }
+    }
+    CHECK(n_failed > 5);
+    CHECK(n_done > 5);
+}
