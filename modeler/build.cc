@@ -84,8 +84,10 @@ std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& opt
         Operand& operand = operands[i];
         operand.name = primitive.name;
         operand.size = sizes[i];
-        const volmesh::TriMesh surface = tessellate(
-            primitive, {.size = sizes[i], .chord_tolerance = options.chord_tolerance, .shared = shared[i]});
+        const volmesh::TriMesh surface = tessellate(primitive, {.size = sizes[i],
+                                                                .chord_tolerance = options.chord_tolerance,
+                                                                .is_draft = !may_own[i],
+                                                                .shared = shared[i]});
         operand.surface = closed_surface(surface, first[i]);
         if (!may_own[i] || !options.keep_cells) return;
         try {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -19,6 +20,7 @@ using namespace remeshing;
 constexpr int smoothing_sweeps = 3;
 constexpr int rounds_with_new_sizes = 3;
 constexpr double tolerated_at_first = 0.4;
+constexpr double stalled = 0.7;  // of the changes of the round before: more rounds gain little
 
 double smallest_angle(const Net& net) {
     double worst = 1;
@@ -52,10 +54,18 @@ RemeshReport remesh(FacetComplex& complex, const RemeshGeometry& geometry, const
     // Not before the slivers are gone can gaps be told from them.
     session.net.rebuild_grid();
     collapse_edges(session);
+    bool is_strict = false;
+    std::size_t before = std::numeric_limits<std::size_t>::max();
     for (int round = 0; round < options.rounds; ++round) {
-        session.tolerated = round < options.rounds / 2 ? tolerated_at_first * session.good : session.good;
+        is_strict = is_strict || round >= options.rounds / 2;
+        session.tolerated = is_strict ? session.good : tolerated_at_first * session.good;
         if (round < rounds_with_new_sizes) set_sizes(session);
-        if (work(session) == 0) break;
+        const std::size_t changes = work(session);
+        if (changes == 0) break;
+        const bool is_stalled = static_cast<double>(changes) > stalled * static_cast<double>(before);
+        if (is_stalled && is_strict) break;
+        is_strict = is_strict || (is_stalled && round >= rounds_with_new_sizes);
+        before = changes;
     }
 
     session.report.short_of_surface = count_short_of_surface(session);

@@ -36,7 +36,7 @@ struct RemeshOptions {
     double smallest_gap = 0.2;  ///< thin sheets make the size smaller, down to so many times the wanted one
     /// Thin sheets make the size smaller only as far as there come to be about so many times the facets that
     /// there were and those that the wanted size makes, together.
-    double most_growth = 2;
+    double most_growth = 1;
 };
 
 /// What the remesher did. Angles are in degrees, over the facets that are not frozen.

@@ -56,20 +56,13 @@ bool in_one_plane(const Patch& a, const Patch& b) {
     return a.planar && a.surface == b.surface;
 }
 
-Eigen::AlignedBox3d box_of(const Corners& corners) {
-    Eigen::AlignedBox3d box(corners[0]);
-    return box.extend(corners[1]).extend(corners[2]);
-}
-
 bool meets_a_neighbour(const Net& net, const std::vector<PlacedTriangle>& added, const Change& change) {
     std::vector<Index> nearby;
     for (std::size_t i = 0; i < added.size(); ++i) {
         nearby.clear();
         net.grid().collect(added[i].corners, nearby);
-        const Eigen::AlignedBox3d box = box_of(added[i].corners);
         for (const Index t : nearby) {
-            if (!box.intersects(box_of(net.corners(t))) ||
-                in_one_plane(net.patch(change.added[i]), net.patch(t)) ||
+            if (in_one_plane(net.patch(change.added[i]), net.patch(t)) ||
                 std::ranges::find(change.removed, t) != change.removed.end())
                 continue;
             if (collide(added[i], placed(net, t))) return true;

@@ -9,7 +9,12 @@ namespace maille::modeler::remeshing {
 
 namespace {
 
-constexpr int small_span = 2;  // cells a side that a piece of a triangle may cover
+constexpr std::size_t buckets_a_triangle = 8;  // about the cells that one is in: few share a bucket
+constexpr int small_span = 2;                  // cells a side that a piece of a triangle may cover
+
+Eigen::AlignedBox3d box_of(const Corners& corners) {
+    return Eigen::AlignedBox3d(corners[0]).extend(corners[1]).extend(corners[2]);
+}
 
 void sort_unique(auto& values) {
     std::ranges::sort(values);
@@ -20,7 +25,7 @@ void sort_unique(auto& values) {
 
 void TriangleGrid::reset(double cell, std::size_t expected) {
     cell_ = cell;
-    buckets_.assign(std::bit_ceil(std::max<std::size_t>(64, 2 * expected)), {});
+    buckets_.assign(std::bit_ceil(std::max<std::size_t>(64, buckets_a_triangle * expected)), {});
 }
 
 TriangleGrid::Cell TriangleGrid::cell_of(const Vec3& p) const {
@@ -77,7 +82,11 @@ void TriangleGrid::insert(Index triangle, const Corners& corners) {
     buckets_of(corners, buckets);
     sort_unique(buckets);
     for (const std::size_t bucket : buckets) buckets_[bucket].push_back(triangle);
-    if (triangle >= collected_.size()) collected_.resize(2 * std::size_t{triangle} + 1, 0);
+    if (triangle >= collected_.size()) {
+        collected_.resize(2 * std::size_t{triangle} + 1, 0);
+        boxes_.resize(collected_.size());
+    }
+    boxes_[triangle] = box_of(corners);
 }
 
 void TriangleGrid::erase(Index triangle, const Corners& corners) {
@@ -92,18 +101,20 @@ void TriangleGrid::erase(Index triangle, const Corners& corners) {
     }
 }
 
-void TriangleGrid::collect(const std::vector<std::size_t>& buckets, std::vector<Index>& found) const {
+void TriangleGrid::collect(const std::vector<std::size_t>& buckets, const Eigen::AlignedBox3d& box,
+                           std::vector<Index>& found) const {
     ++calls_;
     for (const std::size_t bucket : buckets)
         for (const Index triangle : buckets_[bucket])
-            if (std::exchange(collected_[triangle], calls_) != calls_) found.push_back(triangle);
+            if (std::exchange(collected_[triangle], calls_) != calls_ && boxes_[triangle].intersects(box))
+                found.push_back(triangle);
 }
 
 void TriangleGrid::collect(const Corners& corners, std::vector<Index>& found) const {
     if (buckets_.empty()) return;
     std::vector<std::size_t> buckets;
     buckets_of(corners, buckets);
-    collect(buckets, found);
+    collect(buckets, box_of(corners), found);
 }
 
 void TriangleGrid::collect(const Eigen::AlignedBox3d& box, std::vector<Index>& found) const {
@@ -118,7 +129,7 @@ void TriangleGrid::collect(const Eigen::AlignedBox3d& box, std::vector<Index>& f
             for (std::int64_t y = low[1]; y <= high[1]; ++y)
                 for (std::int64_t z = low[2]; z <= high[2]; ++z) buckets.push_back(bucket_of({x, y, z}));
     }
-    collect(buckets, found);
+    collect(buckets, box, found);
 }
 
 }  // namespace maille::modeler::remeshing

@@ -27,8 +27,7 @@ class TriangleGrid {
     /// Takes out what was inserted with the same corners.
     void erase(Index triangle, const Corners& corners);
 
-    /// Appends the triangles of the cells that these corners, or this box, may touch, each once; some are
-    /// further away.
+    /// Appends the triangles whose boxes meet the corners', or this one, each once.
     void collect(const Corners& corners, std::vector<Index>& found) const;
     void collect(const Eigen::AlignedBox3d& box, std::vector<Index>& found) const;
 
@@ -39,10 +38,12 @@ class TriangleGrid {
     std::size_t bucket_of(const Cell& cell) const;
     /// The buckets that the triangle falls into, some several times.
     void buckets_of(const Corners& corners, std::vector<std::size_t>& buckets) const;
-    void collect(const std::vector<std::size_t>& buckets, std::vector<Index>& found) const;
+    void collect(const std::vector<std::size_t>& buckets, const Eigen::AlignedBox3d& box,
+                 std::vector<Index>& found) const;
 
     double cell_ = 1;
     std::vector<std::vector<Index>> buckets_;
+    std::vector<Eigen::AlignedBox3d> boxes_;  ///< by triangle
     mutable std::vector<std::uint64_t>
         collected_;  ///< by triangle: the number of the last call that found it
     mutable std::uint64_t calls_ = 0;

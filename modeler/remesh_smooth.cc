@@ -91,6 +91,18 @@ Vec3 mean_of_ideal_apexes(const Net& net, Index v) {
     return sum / static_cast<double>(around.size());
 }
 
+/// The worst quality of the triangles at v if that were there.
+double worst_quality_at(const Net& net, Index v, const Vec3& to) {
+    double worst = 1;
+    for (const Index t : net.triangles_at(v)) {
+        Corners corners = net.corners(t);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (net.triangle(t).vertices[k] == v) corners[k] = to;
+        worst = std::min(worst, quality(corners));
+    }
+    return worst;
+}
+
 bool try_smoothing(Session& session, Index v) {
     const Net& net = session.net;
     const VertexKind kind = net.kind(v);
@@ -100,22 +112,21 @@ bool try_smoothing(Session& session, Index v) {
 
     const auto surfaces = net.surfaces(net.triangles_at(v));
     const auto ends = neighbours_alike(net, v);
-    Change best;
+    std::optional<Vec3> best;
     double best_quality = before + least_gain;
     for (const Vec3& aim : {middle_of_neighbours(net, ends), mean_of_ideal_apexes(net, v)})
         for (const double step : {1.0, 0.5, 0.25}) {
             const Vec3 wanted = net.point(v) + step * (aim - net.point(v));
             // The projection is the dearest part, and changes the shapes little.
-            if (worst_quality(net, move(net, v, wanted)) <= best_quality) continue;
+            if (worst_quality_at(net, v, wanted) <= best_quality) continue;
             const auto target = nearest(session, surfaces, kind, wanted, net.size(v));
             if (!target) continue;
-            Change change = move(net, v, *target);
-            const double after = worst_quality(net, change);
+            const double after = worst_quality_at(net, v, *target);
             if (after <= best_quality) continue;
             best_quality = after;
-            best = std::move(change);
+            best = target;
         }
-    return best.moved != none && try_change(session, best, before);
+    return best && try_change(session, move(net, v, *best), before);
 }
 
 }  // namespace

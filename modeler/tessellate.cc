@@ -1,5 +1,6 @@
 #include "modeler/tessellate.hh"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -96,7 +97,9 @@ TriMesh tessellate(const Primitive& primitive, const TessellateOptions& options)
         check_count(shape, sizing);
         const SurfaceSeed seed = options.shared ? seed_shared(shape, options) : seed_surface(shape, sizing);
         mesh = to_mesh(seed);
-        improve(mesh, shape, sizing, seed.corners, options.shared != nullptr);
+        const bool is_planar = std::ranges::all_of(shape.faces(), &PrimitiveFace::planar);
+        if (!options.is_draft || !is_planar)
+            improve(mesh, shape, sizing, seed.corners, options.shared != nullptr);
     });
     return mesh;
 }

@@ -14,6 +14,7 @@ struct SharedSurface;
 struct TessellateOptions {
     double size = 0;             ///< wanted edge length; has to be given
     double chord_tolerance = 0;  ///< greatest distance from a triangle to the true surface; 0: no limit
+    bool is_draft = false;       ///< planar faces may have badly shaped triangles: they are made anew later
     /// How the curved surface is cut that the primitive shares with others; null: as the primitive likes.
     std::shared_ptr<const SharedSurface> shared{};
 };
