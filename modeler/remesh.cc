@@ -64,7 +64,7 @@ RemeshReport remesh(FacetComplex& complex, const RemeshGeometry& geometry, const
         if (changes == 0) break;
         const bool is_stalled = static_cast<double>(changes) > stalled * static_cast<double>(before);
         if (is_stalled && is_strict) break;
-        is_strict = is_strict || (is_stalled && round >= rounds_with_new_sizes);
+        is_strict = is_strict || (is_stalled && round + 1 >= rounds_with_new_sizes);
         before = changes;
     }
 
