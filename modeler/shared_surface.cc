@@ -308,7 +308,9 @@ class Finder {
         const auto& sphere = *as<Ellipsoid>(i);
         const double radius = sphere.semi_axes()[0];
         const Sizing sizing(sphere, options, thinnest_radius(sphere));
-        return 4 * doubling_count(radius * std::numbers::pi / 2 / sizing.for_curvature(1 / radius), 2);
+        // As many equilateral triangles in an eighth of the sphere as it has room for.
+        const double density = std::sqrt(2 * std::numbers::pi / std::numbers::sqrt3);
+        return 4 * doubling_count(density * radius / sizing.for_curvature(1 / radius), 3);
     }
 
     SharedCone cone_cut(std::uint32_t i, const Family& family, std::map<std::uint32_t, int>& counts) {

@@ -113,6 +113,20 @@ TEST_CASE("equal spheres have the same triangles, those of the smaller size") {
     CHECK(triangles(meshes[0], -1, 1).size() > 3 * triangles(meshes[2], -1, 1).size() / 2);
 }
 
+TEST_CASE("spheres that are shared keep the chord tolerance") {
+    const Model model = parse_model("union() { sphere(.5); rotate([10, 20, 30]) sphere(.5); }", "spheres");
+    for (const double tolerance : {.05, .01, .001}) {
+        std::vector<double> sizes{.35, .35};
+        const auto shared = find_shared_surfaces(model.primitives, sizes, tolerance);
+        const auto mesh =
+            tessellate(model.primitives[0], {.size = .35, .chord_tolerance = tolerance, .shared = shared[0]});
+        double depth = 0;
+        for (const auto f : mesh.faces()) depth = std::max(depth, .5 - mesh.calc_face_centroid(f).norm());
+        CHECK(depth < tolerance);
+        CHECK(depth > tolerance / 4);
+    }
+}
+
 TEST_CASE("what shares no round surface is cut as it likes") {
     const Model model = parse_model(
         "cylinder(h = 1, r = 1); translate([0, 0, 2]) cylinder(h = 1, r = 1); cylinder(h = 3, r = .7);"

@@ -7,6 +7,7 @@
 
 #include "tools/benchmark/files.hh"
 #include "tools/benchmark/incidences.hh"
+#include "tools/benchmark/merging.hh"
 #include "tools/benchmark/refinement.hh"
 #include "volmesh/error.hh"
 
@@ -55,6 +56,10 @@ int main(int argc, char** argv) {
     files->add_option("--repeat", what.repeats, "The best of so many runs")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
+    auto* merging = app.add_subcommand("merge", "Merges a box and a cylinder, at four sizes");
+    merging->add_option("--repeat", what.repeats, "The best of so many runs")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
     CLI11_PARSE(app, argc, argv);
 
     try {
@@ -63,6 +68,8 @@ int main(int argc, char** argv) {
                 if (work == what.work) what.name = name + ", " + start;
             print_refinement_header();
             run(start_mesh(start), what);
+        } else if (merging->parsed()) {
+            measure_merging(what.repeats);
         } else if (files->parsed()) {
             measure_files(start_mesh(start_of_files), what.repeats);
         } else {
