@@ -6,9 +6,11 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "refine/relocate.hh"
+#include "volmesh/error.hh"
 
 namespace maille::refine {
 namespace {
@@ -33,6 +35,11 @@ int edge_to_split(const TetMesh& mesh, CellHandle c) {
 }
 
 }  // namespace
+
+void require_min_shape(double min_shape) {
+    if (!(min_shape > 0 && min_shape <= 1))
+        throw InputError(fmt::format("the least shape must be above 0 and at most 1, not {}", min_shape));
+}
 
 BoundaryProjection::BoundaryProjection(TetMesh& mesh, const volmesh::Projector& projector, double min_shape)
     : mesh_(mesh),

@@ -16,6 +16,9 @@ struct CellEdge {
     int edge;
 };
 
+/// Throws InputError where this is no least shape that a move may leave: it must be above 0 and at most 1.
+void require_min_shape(double min_shape);
+
 /// Moves vertices onto the true surfaces that they lie on, without ever inverting a cell or, to get there,
 /// making one worse than the shape allowed.
 ///

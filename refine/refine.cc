@@ -6,7 +6,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include "refine/bisector.hh"
 #include "refine/curve_order.hh"
@@ -14,6 +13,7 @@
 #include "refine/relocate.hh"
 #include "refine/rivara.hh"
 #include "refine/stopwatch.hh"
+#include "refine/threads.hh"
 #include "volmesh/error.hh"
 
 namespace maille::refine {
@@ -171,11 +171,8 @@ void require_valid(const TetMesh& mesh, const RefineOptions& options) {
         throw InputError(fmt::format("the refinement ratio must be positive, not {}", options.ratio));
     if (!(options.gradation >= 0) || !std::isfinite(options.gradation))
         throw InputError(fmt::format("the gradation must be positive, not {}", options.gradation));
-    if (!(options.min_shape > 0 && options.min_shape <= 1))
-        throw InputError(
-            fmt::format("the least shape must be above 0 and at most 1, not {}", options.min_shape));
+    require_min_shape(options.min_shape);
     if (options.max_iterations < 0) throw InputError("the number of iterations cannot be negative");
-    if (options.threads < 0) throw InputError("the number of threads cannot be negative");
     if (mesh.has_deleted())
         throw InputError("the mesh has deleted entities: collect them (garbage_collection) first");
 }
@@ -185,10 +182,8 @@ void require_valid(const TetMesh& mesh, const RefineOptions& options) {
 RefineResult refine(TetMesh& mesh, const SizeField& size, const RefineOptions& options,
                     const volmesh::Projector* projector) {
     require_valid(mesh, options);
-    const int available = tbb::this_task_arena::max_concurrency();
-    tbb::task_arena arena(options.threads == 0 ? available : std::min(options.threads, available));
     RefineResult result;
-    arena.execute([&] { result = Refinement(mesh, size, options, projector).run(); });
+    with_threads(options.threads, [&] { result = Refinement(mesh, size, options, projector).run(); });
     return result;
 }
 

@@ -1,14 +1,16 @@
 #include "refine/uniform.hh"
 
-#include <algorithm>
+#include <array>
 #include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include "refine/project.hh"
 #include "refine/stopwatch.hh"
+#include "refine/threads.hh"
 #include "volmesh/error.hh"
 
 namespace maille::refine {
@@ -16,10 +18,7 @@ namespace {
 
 void require_valid(const TetMesh& mesh, const UniformOptions& options) {
     if (options.levels < 0) throw InputError("the number of levels cannot be negative");
-    if (!(options.min_shape > 0 && options.min_shape <= 1))
-        throw InputError(
-            fmt::format("the least shape must be above 0 and at most 1, not {}", options.min_shape));
-    if (options.threads < 0) throw InputError("the number of threads cannot be negative");
+    require_min_shape(options.min_shape);
     double cells = mesh.n_cells();
     for (int level = 0; level < options.levels; ++level) cells *= 8;
     if (cells >= TetMesh::none / 8)
@@ -79,10 +78,8 @@ RefineResult refined(TetMesh& mesh, const UniformOptions& options, const volmesh
 RefineResult refine_uniformly(TetMesh& mesh, const UniformOptions& options,
                               const volmesh::Projector* projector) {
     require_valid(mesh, options);
-    const int available = tbb::this_task_arena::max_concurrency();
-    tbb::task_arena arena(options.threads == 0 ? available : std::min(options.threads, available));
     RefineResult result;
-    arena.execute([&] { result = refined(mesh, options, projector); });
+    with_threads(options.threads, [&] { result = refined(mesh, options, projector); });
     return result;
 }
 
