@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -22,19 +21,32 @@ std::uint32_t spread(std::uint32_t x) {
     return (x | (x << 2)) & 0x09249249U;
 }
 
-struct Keyed {
-    std::uint32_t key;
-    CellHandle cell;
-};
-using KeyedCells = volmesh::Column<Keyed>;
+}  // namespace
+
+CurveOrder::CurveOrder(const TetMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const volmesh::Point& p : mesh.points()) box.extend(p);
+    origin_ = box.isEmpty() ? volmesh::Point(0, 0, 0) : box.min();
+    const double size = box.isEmpty() ? 0 : box.sizes().maxCoeff();
+    scale_ = size > 0 ? last_step / size : 0;
+}
+
+CurveOrder::Place CurveOrder::place(const volmesh::Point& p) const {
+    const auto step = [&](int axis) {
+        // Vertices may be moved out of the box by a little.
+        return static_cast<std::uint32_t>(
+            std::clamp((p[axis] - origin_[axis]) * scale_, 0.0, static_cast<double>(last_step)));
+    };
+    return spread(step(0)) | (spread(step(1)) << 1) | (spread(step(2)) << 2);
+}
 
 /// One pass of a radix sort: by some bits of the keys, equals as they were. Many threads count and move parts
 /// of the cells, each to the places that the parts before it leave.
-void sort_by_bits(const KeyedCells& from, KeyedCells& to, int shift) {
+void CurveOrder::sort_by_bits(const KeyedCells& from, KeyedCells& to, int shift) {
     constexpr std::size_t n_parts = 32;
     using Counts = std::array<std::uint32_t, last_step + 1>;
     std::vector<Counts> places(n_parts);
-    const auto digit = [shift](const Keyed& k) { return (k.key >> shift) & last_step; };
+    const auto digit = [shift](const Keyed& k) { return (k.place >> shift) & last_step; };
     const auto part = [&](std::size_t i) {
         return std::span(from.begin() + from.size() * i / n_parts,
                          from.begin() + from.size() * (i + 1) / n_parts);
@@ -51,38 +63,20 @@ void sort_by_bits(const KeyedCells& from, KeyedCells& to, int shift) {
     });
 }
 
-}  // namespace
-
-CurveOrder::CurveOrder(const TetMesh& mesh) {
-    Eigen::AlignedBox3d box;
-    for (const volmesh::Point& p : mesh.points()) box.extend(p);
-    origin_ = box.isEmpty() ? volmesh::Point(0, 0, 0) : box.min();
-    const double size = box.isEmpty() ? 0 : box.sizes().maxCoeff();
-    scale_ = size > 0 ? last_step / size : 0;
-}
-
-std::uint32_t CurveOrder::key(const volmesh::Point& p) const {
-    const auto step = [&](int axis) {
-        // Vertices may be moved out of the box by a little.
-        return static_cast<std::uint32_t>(
-            std::clamp((p[axis] - origin_[axis]) * scale_, 0.0, static_cast<double>(last_step)));
-    };
-    return spread(step(0)) | (spread(step(1)) << 1) | (spread(step(2)) << 2);
-}
-
-void CurveOrder::sort(std::vector<CellHandle>& cells, const TetMesh& mesh) const {
-    KeyedCells keyed, other;
-    keyed.grow(cells.size());
-    other.grow(cells.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-            keyed[i] = {key(mesh.point(mesh.cell_vertex(cells[i], 0))), cells[i]};
-    });
+std::vector<CellHandle> CurveOrder::sorted(std::span<const CellHandle> cells, std::span<const Place> places) {
+    keyed_.grow(cells.size() - static_cast<std::size_t>(std::ranges::count(places, nowhere)));
+    other_.grow(keyed_.size());
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (places[i] != nowhere) keyed_[n++] = {places[i], cells[i]};
     for (int shift = 0; shift < 3 * bits; shift += bits) {
-        sort_by_bits(keyed, other, shift);
-        keyed.swap(other);
+        sort_by_bits(keyed_, other_, shift);
+        keyed_.swap(other_);
     }
-    for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = keyed[i].cell;
+    std::vector<CellHandle> result;
+    result.reserve(n);
+    for (const Keyed& keyed : keyed_) result.push_back(keyed.cell);
+    return result;
 }
 
 }  // namespace maille::refine

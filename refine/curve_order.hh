@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
+#include "volmesh/column.hh"
 #include "volmesh/tet_mesh.hh"
 
 namespace maille::refine {
@@ -9,22 +13,36 @@ namespace maille::refine {
 using volmesh::CellHandle;
 using volmesh::TetMesh;
 
-/// Sorts cells along a space-filling curve through the bounding box that a mesh has when this is made, by the
-/// first vertex of each; those of one place stay as they are. Cells that are near to each other are then
-/// taken one after another, and what is made of them lies near to them in memory.
+/// Sorts cells along a space-filling curve through the bounding box that a mesh has when this is made. Cells
+/// that are near to each other are then taken one after another, and what is made of them lies near to them
+/// in memory.
 ///
 /// The curve is Morton's ("A computer oriented geodetic data base", 1966): the bits of the coordinates,
 /// interleaved. Cost: linear.
 class CurveOrder {
   public:
+    using Place = std::uint32_t;
+    static constexpr Place nowhere = std::numeric_limits<Place>::max();
+
     explicit CurveOrder(const TetMesh& mesh);
-    void sort(std::vector<CellHandle>& cells, const TetMesh& mesh) const;
+
+    /// How far along the curve a point is.
+    Place place(const volmesh::Point& p) const;
+    /// The cells whose place isn't `nowhere`, by their places; those of one place as they were.
+    std::vector<CellHandle> sorted(std::span<const CellHandle> cells, std::span<const Place> places);
 
   private:
-    std::uint32_t key(const volmesh::Point& p) const;
+    struct Keyed {
+        Place place;
+        CellHandle cell;
+    };
+    using KeyedCells = volmesh::Column<Keyed>;
+
+    static void sort_by_bits(const KeyedCells& from, KeyedCells& to, int shift);
 
     volmesh::Point origin_;
-    double scale_;  ///< from the mesh's lengths to steps of the curve's grid
+    double scale_;              ///< from the mesh's lengths to steps of the curve's grid
+    KeyedCells keyed_, other_;  ///< kept from one sort to the next, as fresh memory takes time
 };
 
 }  // namespace maille::refine

@@ -25,8 +25,8 @@ void require_room(double length, const Point& at, double size) {
                                  at.x(), at.y(), at.z()));
 }
 
-bool is_too_long(const Bisector& bisector, CellHandle c, const SizeField& size, double ratio) {
-    const Point at = centroid(bisector.mesh(), c);
+bool is_too_long(const Bisector& bisector, CellHandle c, const Point& at, const SizeField& size,
+                 double ratio) {
     const double wanted = size(at);
     const double length = std::sqrt(bisector.longest_squared(c));
     if (length <= ratio * wanted) return false;
@@ -46,21 +46,39 @@ double sigma(const TetMesh& mesh, CellHandle c) {
     return quality::sigma(quality::tet_geometry(p[0], p[1], p[2], p[3]));
 }
 
+/// Calls `judge(i, centroid)` for the i-th of the cells, by as many threads as there are.
+template <class Judge>
+void look_at(const TetMesh& mesh, std::span<const CellHandle> cells, const Judge& judge) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            if (i + look_ahead < cells.size()) fetch_points(mesh, cells[i + look_ahead]);
+            judge(i, centroid(mesh, cells[i]));
+        }
+    });
+}
+
 }  // namespace
 
 std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<const CellHandle> cells,
                                         const SizeField& size, double ratio) {
     std::vector<std::uint8_t> marked(cells.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 1024), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            if (i + look_ahead < cells.size()) fetch_points(bisector.mesh(), cells[i + look_ahead]);
-            marked[i] = is_too_long(bisector, cells[i], size, ratio) ? 1 : 0;
-        }
+    look_at(bisector.mesh(), cells, [&](std::size_t i, const Point& at) {
+        marked[i] = is_too_long(bisector, cells[i], at, size, ratio) ? 1 : 0;
     });
     std::vector<CellHandle> chosen;
     for (std::size_t i = 0; i < cells.size(); ++i)
         if (marked[i] != 0) chosen.push_back(cells[i]);
     return chosen;
+}
+
+std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<const CellHandle> cells,
+                                        const SizeField& size, double ratio, CurveOrder& curve) {
+    std::vector<CurveOrder::Place> places(cells.size());
+    look_at(bisector.mesh(), cells, [&](std::size_t i, const Point& at) {
+        const bool is_marked = is_too_long(bisector, cells[i], at, size, ratio);
+        places[i] = is_marked ? curve.place(at) : CurveOrder::nowhere;
+    });
+    return curve.sorted(cells, places);
 }
 
 void sort_cells(std::vector<CellHandle>& cells, const Bisector& bisector, Order order) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "refine/bisector.hh"
+#include "refine/curve_order.hh"
 #include "refine/size_field.hh"
 
 namespace maille::refine {
@@ -21,6 +22,9 @@ enum class Order : std::uint8_t {
 /// elements' points.
 std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<const CellHandle> cells,
                                         const SizeField& size, double ratio);
+/// The same, by their centroids' places on a curve.
+std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<const CellHandle> cells,
+                                        const SizeField& size, double ratio, CurveOrder& curve);
 
 /// Sorts the cells; equals stay in ascending order. (The paper, section 3.3, "Sorting of elements".)
 void sort_cells(std::vector<CellHandle>& cells, const Bisector& bisector, Order order);

@@ -80,11 +80,12 @@ class Refinement {
 
     Cells mark() {
         const Stopwatch watch(result_.seconds.mark);
-        Cells marked = cells_to_refine(bisector_, bisector_.take_changed(), size_, options_.ratio);
-        if (options_.method == Method::rivara && options_.order == Order::none)
-            curve_.sort(marked, mesh_);  // the mesh is the same in any order
-        else
-            sort_cells(marked, bisector_, options_.order);
+        const Cells changed = bisector_.take_changed();
+        if (options_.method == Method::rivara &&
+            options_.order == Order::none)  // the mesh is the same in any order
+            return cells_to_refine(bisector_, changed, size_, options_.ratio, curve_);
+        Cells marked = cells_to_refine(bisector_, changed, size_, options_.ratio);
+        sort_cells(marked, bisector_, options_.order);
         return marked;
     }
 

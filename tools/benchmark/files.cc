@@ -20,12 +20,13 @@ namespace fs = std::filesystem;
 /// The shortest of several: others' work on the machine only ever slows it.
 template <class Action>
 Seconds best_of(int repeats, const Action& action) {
-    Seconds best{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    constexpr double never = std::numeric_limits<double>::infinity();
+    Seconds best{.cpu = never, .wall = never};
     for (int i = 0; i < repeats; ++i) {
         const Seconds start = now();
         action();
         const Seconds took = now() - start;
-        best = {std::min(best.cpu, took.cpu), std::min(best.wall, took.wall)};
+        best = {.cpu = std::min(best.cpu, took.cpu), .wall = std::min(best.wall, took.wall)};
     }
     return best;
 }

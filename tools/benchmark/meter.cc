@@ -1,11 +1,14 @@
 #include "tools/benchmark/meter.hh"
 
 #include <chrono>
+#include <cstdint>
 #include <fstream>
 #include <string>
 
 #include <malloc.h>
 #include <sys/resource.h>
+
+#include "volmesh/column.hh"
 
 namespace maille::benchmark {
 namespace {
@@ -33,7 +36,8 @@ Seconds now() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const auto wall = std::chrono::steady_clock::now().time_since_epoch();
-    return {seconds(usage.ru_utime) + seconds(usage.ru_stime), std::chrono::duration<double>(wall).count()};
+    const double system = seconds(usage.ru_stime);
+    return {seconds(usage.ru_utime) + system, system, std::chrono::duration<double>(wall).count()};
 }
 
 std::size_t resident_bytes() {
@@ -47,6 +51,10 @@ std::size_t peak_bytes() {
 void forget_peak() {
     malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+void lay_out_memory(std::size_t bytes) {
+    volmesh::Column<std::uint8_t>().assign(bytes, 1);
 }
 
 }  // namespace maille::benchmark

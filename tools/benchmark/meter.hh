@@ -4,10 +4,13 @@
 
 namespace maille::benchmark {
 
-/// Seconds of this process so far: of its threads in user and in system mode together, and of the wall clock.
+/// Seconds of this process so far: of its threads in user and in system mode together, those in system mode
+/// alone, which are for memory that is touched first, and of the wall clock.
 struct Seconds {
-    double cpu = 0, wall = 0;
-    friend Seconds operator-(const Seconds& a, const Seconds& b) { return {a.cpu - b.cpu, a.wall - b.wall}; }
+    double cpu = 0, system = 0, wall = 0;
+    friend Seconds operator-(const Seconds& a, const Seconds& b) {
+        return {a.cpu - b.cpu, a.system - b.system, a.wall - b.wall};
+    }
 };
 Seconds now();
 
@@ -17,5 +20,9 @@ std::size_t resident_bytes();
 std::size_t peak_bytes();
 /// Gives memory that is free back to the system, and measures the peak from here on.
 void forget_peak();
+/// Has the machine lay memory behind as many bytes, and frees them. The host of a virtual machine looks for
+/// memory when a page is first touched, which takes a second or two for a gigabyte: what is measured next
+/// finds it there.
+void lay_out_memory(std::size_t bytes);
 
 }  // namespace maille::benchmark
