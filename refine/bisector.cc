@@ -83,6 +83,8 @@ void Bisector::refresh(std::span<const CellHandle> cells) {
 
 std::vector<CellHandle> Bisector::changed() const {
     std::vector<CellHandle> cells;
+    cells.reserve(static_cast<std::size_t>(
+        std::ranges::count_if(state_, [](std::uint8_t state) { return (state & changed_bit) != 0; })));
     const auto n = static_cast<std::uint32_t>(state_.size());
     const auto is_changed = [&](std::uint32_t c) { return (state_[c] & changed_bit) != 0; };
     constexpr std::uint64_t changed_bits = 0x0101010101010101U * changed_bit;

@@ -63,12 +63,17 @@ void CurveOrder::sort_by_bits(const KeyedCells& from, KeyedCells& to, int shift)
     });
 }
 
-std::vector<CellHandle> CurveOrder::sorted(std::span<const CellHandle> cells, std::span<const Place> places) {
-    keyed_.grow(cells.size() - static_cast<std::size_t>(std::ranges::count(places, nowhere)));
+std::span<CurveOrder::Place> CurveOrder::places(std::size_t n_cells) {
+    places_.grow(n_cells);
+    return {places_.data(), n_cells};
+}
+
+std::vector<CellHandle> CurveOrder::sorted(std::span<const CellHandle> cells) {
+    keyed_.grow(cells.size() - static_cast<std::size_t>(std::ranges::count(places_, nowhere)));
     other_.grow(keyed_.size());
     std::size_t n = 0;
     for (std::size_t i = 0; i < cells.size(); ++i)
-        if (places[i] != nowhere) keyed_[n++] = {places[i], cells[i]};
+        if (places_[i] != nowhere) keyed_[n++] = {places_[i], cells[i]};
     for (int shift = 0; shift < 3 * bits; shift += bits) {
         sort_by_bits(keyed_, other_, shift);
         keyed_.swap(other_);

@@ -28,8 +28,10 @@ class CurveOrder {
 
     /// How far along the curve a point is.
     Place place(const volmesh::Point& p) const;
+    /// Room for the places of so many cells, to be filled before `sorted`.
+    std::span<Place> places(std::size_t n_cells);
     /// The cells whose place isn't `nowhere`, by their places; those of one place as they were.
-    std::vector<CellHandle> sorted(std::span<const CellHandle> cells, std::span<const Place> places);
+    std::vector<CellHandle> sorted(std::span<const CellHandle> cells);
 
   private:
     struct Keyed {
@@ -41,8 +43,10 @@ class CurveOrder {
     static void sort_by_bits(const KeyedCells& from, KeyedCells& to, int shift);
 
     volmesh::Point origin_;
-    double scale_;              ///< from the mesh's lengths to steps of the curve's grid
-    KeyedCells keyed_, other_;  ///< kept from one sort to the next, as fresh memory takes time
+    double scale_;  ///< from the mesh's lengths to steps of the curve's grid
+    // Kept from one sort to the next, as fresh memory takes time.
+    volmesh::Column<Place> places_;
+    KeyedCells keyed_, other_;
 };
 
 }  // namespace maille::refine

@@ -73,12 +73,12 @@ std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<cons
 
 std::vector<CellHandle> cells_to_refine(const Bisector& bisector, std::span<const CellHandle> cells,
                                         const SizeField& size, double ratio, CurveOrder& curve) {
-    std::vector<CurveOrder::Place> places(cells.size());
+    const std::span<CurveOrder::Place> places = curve.places(cells.size());
     look_at(bisector.mesh(), cells, [&](std::size_t i, const Point& at) {
         const bool is_marked = is_too_long(bisector, cells[i], at, size, ratio);
         places[i] = is_marked ? curve.place(at) : CurveOrder::nowhere;
     });
-    return curve.sorted(cells, places);
+    return curve.sorted(cells);
 }
 
 void sort_cells(std::vector<CellHandle>& cells, const Bisector& bisector, Order order) {
