@@ -8,8 +8,8 @@ set(volmesh_headers boundary cell_table collapse edge_removal edge_stars error f
   measure named_sets orientation overlap projector properties property_stats renumber retriangulation set_algebra
   smart_handles split_inside status strata submesh tet_mesh tet_mesh_properties tet_navigation tet_ranges tet_topology
   tri_mesh validate)
-set(quality_headers cell_measures improve measures report)
-set(refine_headers lineage longest_edge marking paper projection_result refine size_field uniform)
+set(quality_headers cell_measures improve measures projection_result report)
+set(refine_headers lineage longest_edge marking paper refine size_field uniform)
 set(modeler_headers build build_report csg_tree facet_complex merge model outline primitive shapes solid tessellate
   tetrahedralize)
 set(public_files)

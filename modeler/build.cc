@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "modeler/build_copies.hh"
+#include "modeler/build_projection.hh"
 #include "modeler/build_size.hh"
 #include "modeler/closed_surface.hh"
 #include "modeler/merge_operand.hh"
@@ -207,6 +208,7 @@ TetMesh build(const Model& model, const BuildOptions& options, BuildReport* repo
     told.new_cells = merged.mesh.n_cells() - told.kept_cells;
     name_cells(merged.mesh, merged.regions, model);
     name_faces(merged.mesh, merged.regions, merged.faces, model);
+    told.projection = project_new_vertices(merged, projector(model));
     return std::move(merged.mesh);
 }
 

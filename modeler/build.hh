@@ -27,8 +27,8 @@ struct BuildOptions {
 ///
 /// Cell sets: one for each primitive that owns cells, by its name, and one for each material. Face sets:
 /// boundary faces are in `<primitive>/<face>`, the surface that they lie on; faces between two primitives'
-/// cells are in the same with `inner_suffix`. Vertices on the boundary lie on the true surfaces; faces are
-/// flat.
+/// cells are in the same with `inner_suffix`. Vertices on the boundary and on interfaces lie on all the true
+/// surfaces of their faces, but for those that `BuildReport::projection` names; faces are flat.
 ///
 /// Throws InputError where the model is empty or cannot be meshed, telling why and where.
 volmesh::TetMesh build(const Model& model, const BuildOptions& options = {}, BuildReport* report = nullptr);

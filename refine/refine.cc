@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "quality/boundary_projection.hh"
+#include "quality/relocate.hh"
 #include "refine/bisector.hh"
 #include "refine/curve_order.hh"
-#include "refine/project.hh"
-#include "refine/relocate.hh"
 #include "refine/rivara.hh"
 #include "refine/stopwatch.hh"
 #include "refine/threads.hh"
@@ -126,7 +126,7 @@ class Refinement {
         for (std::uint32_t i = first_new; i < mesh_.n_vertices(); ++i) {
             const VertexHandle v(i);
             const CellList cells = mesh_.vc_range(v);
-            if (is_free(mesh_, v, cells) && relax(mesh_, v, cells))
+            if (quality::is_free(mesh_, v, cells) && quality::relax(mesh_, v, cells))
                 moved.insert(moved.end(), cells.begin(), cells.end());
         }
         bisector_.refresh(moved);
@@ -161,7 +161,7 @@ class Refinement {
     const RefineOptions& options_;
     Bisector bisector_;
     CurveOrder curve_;
-    std::optional<BoundaryProjection> projection_;
+    std::optional<quality::BoundaryProjection> projection_;
     std::size_t fewest_short_ = std::numeric_limits<std::size_t>::max();
     int n_failed_rescues_ = 0;
     RefineResult result_;
@@ -172,7 +172,7 @@ void require_valid(const TetMesh& mesh, const RefineOptions& options) {
         throw InputError(fmt::format("the refinement ratio must be positive, not {}", options.ratio));
     if (!(options.gradation >= 0) || !std::isfinite(options.gradation))
         throw InputError(fmt::format("the gradation must be positive, not {}", options.gradation));
-    require_min_shape(options.min_shape);
+    quality::require_min_shape(options.min_shape);
     if (options.max_iterations < 0) throw InputError("the number of iterations cannot be negative");
     if (mesh.has_deleted())
         throw InputError("the mesh has deleted entities: collect them (garbage_collection) first");

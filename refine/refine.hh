@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
+#include "quality/projection_result.hh"
 #include "refine/lineage.hh"
 #include "refine/marking.hh"
-#include "refine/projection_result.hh"
 #include "refine/size_field.hh"
 #include "volmesh/projector.hh"
 #include "volmesh/tet_mesh.hh"
@@ -66,11 +66,11 @@ struct RefineResult {
     int iterations = 0;  ///< passes that had an element to refine
     bool ended =
         true;  ///< false where elements are left to refine: a cap was hit, or they are too flat to be split
-    std::uint32_t cells = 0;      ///< that there are now
-    std::uint32_t vertices = 0;   ///< that there are now
-    Lineage lineage;              ///< where they come from
-    ProjectionResult projection;  ///< empty without a projector
-    Seconds seconds;              ///< that it took
+    std::uint32_t cells = 0;               ///< that there are now
+    std::uint32_t vertices = 0;            ///< that there are now
+    Lineage lineage;                       ///< where they come from
+    quality::ProjectionResult projection;  ///< empty without a projector
+    Seconds seconds;                       ///< that it took
 };
 
 /// Refines the mesh, in passes, until no element's longest edge is longer than `ratio` times the size at its

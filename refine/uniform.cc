@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "refine/project.hh"
+#include "quality/boundary_projection.hh"
 #include "refine/stopwatch.hh"
 #include "refine/threads.hh"
 #include "volmesh/error.hh"
@@ -18,7 +18,7 @@ namespace {
 
 void require_valid(const TetMesh& mesh, const UniformOptions& options) {
     if (options.levels < 0) throw InputError("the number of levels cannot be negative");
-    require_min_shape(options.min_shape);
+    quality::require_min_shape(options.min_shape);
     double cells = mesh.n_cells();
     for (int level = 0; level < options.levels; ++level) cells *= 8;
     if (cells >= TetMesh::none / 8)
@@ -27,7 +27,7 @@ void require_valid(const TetMesh& mesh, const UniformOptions& options) {
 }
 
 /// Moves vertices from `first` on to their surfaces, if there are any.
-void bring_home(const TetMesh& mesh, BoundaryProjection& projection, std::uint32_t first) {
+void bring_home(const TetMesh& mesh, quality::BoundaryProjection& projection, std::uint32_t first) {
     std::vector<CellHandle> cells;
     for (const auto c : mesh.cells()) cells.push_back(c);
     projection.take_up(first, cells);
@@ -49,7 +49,7 @@ RefineResult refined(TetMesh& mesh, const UniformOptions& options, const volmesh
     result.lineage.n_vertices_before = mesh.n_vertices();
     result.lineage.cell_ancestors.resize(mesh.n_cells());
     std::iota(result.lineage.cell_ancestors.begin(), result.lineage.cell_ancestors.end(), 0U);
-    std::optional<BoundaryProjection> projection;
+    std::optional<quality::BoundaryProjection> projection;
     if (projector != nullptr && options.project) projection.emplace(mesh, *projector, options.min_shape);
     const auto project = [&](std::uint32_t first) {
         const Stopwatch watch(result.seconds.project);

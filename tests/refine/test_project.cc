@@ -4,14 +4,15 @@
 #include <doctest/doctest.h>
 
 #include "meshes.hh"
-#include "refine/project.hh"
+#include "quality/boundary_projection.hh"
+#include "quality/relocate.hh"
 #include "refine/refine.hh"
-#include "refine/relocate.hh"
 #include "volmesh/error.hh"
 #include "volmesh/measure.hh"
 #include "volmesh/validate.hh"
 
 using namespace maille::refine;
+using maille::quality::ShortOfTarget;
 using maille::volmesh::EntityKind;
 using maille::volmesh::Projector;
 using test::Soup;
@@ -264,7 +265,7 @@ TEST_CASE("no move onto a surface leaves less shape than allowed") {
     const Projector projector = cavity_projector(radius);
     const auto shape_of = [](const TetMesh& mesh, CellHandle c) {
         const auto p = mesh.cell_points(c);
-        return shape(p[0], p[1], p[2], p[3]);
+        return maille::quality::exact_gamma(p[0], p[1], p[2], p[3]);
     };
     std::vector<std::size_t> n_short;
     for (const double min_shape : {0.6, 0.3, 0.0005}) {
@@ -272,7 +273,7 @@ TEST_CASE("no move onto a surface leaves less shape than allowed") {
         const TetMesh before = mesh;
         std::vector<CellHandle> all;
         for (const auto c : mesh.cells()) all.push_back(c);
-        BoundaryProjection projection(mesh, projector, min_shape);
+        maille::quality::BoundaryProjection projection(mesh, projector, min_shape);
         projection.take_up(0, all);
         projection.run();
         projection.insist();

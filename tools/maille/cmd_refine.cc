@@ -49,10 +49,15 @@ std::optional<modeler::Model> model_of(const RefineCommandOptions& options) {
     return read(model);
 }
 
+bool is_projecting(const RefineCommandOptions& options, const volmesh::Projector* surfaces) {
+    return surfaces != nullptr && options.refine.project;
+}
+
 void refine_to_size(const RefineCommandOptions& options, const SizeArguments& sizes, volmesh::TetMesh& mesh,
                     const volmesh::Projector* surfaces, Progress& progress, Summary& summary) {
     const refine::SizeField size = smallest(sizes, {&mesh, surfaces});
-    summary.add(refine_with_progress(mesh, size, options.refine, surfaces, progress));
+    summary.add(refine_with_progress(mesh, size, options.refine, surfaces, progress),
+                is_projecting(options, surfaces));
     summary.clock.end(Phase::refine);
     if (options.refine.smooth) improve_refined(mesh, size, options.refine, surfaces, progress, summary);
 }
@@ -61,7 +66,8 @@ void refine_by_levels(const RefineCommandOptions& options, volmesh::TetMesh& mes
                       const volmesh::Projector* surfaces, Progress& progress, Summary& summary) {
     const refine::UniformOptions uniform{
         .levels = options.levels, .project = options.refine.project, .min_shape = options.refine.min_shape};
-    summary.add(refine_uniformly_with_progress(mesh, uniform, surfaces, progress));
+    summary.add(refine_uniformly_with_progress(mesh, uniform, surfaces, progress),
+                is_projecting(options, surfaces));
     summary.clock.end(Phase::refine);
 }
 

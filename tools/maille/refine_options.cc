@@ -1,14 +1,13 @@
 #include "tools/maille/refine_options.hh"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numbers>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "tools/maille/short_of_target.hh"
 #include "volmesh/error.hh"
 #include "volmesh/measure.hh"
 
@@ -47,35 +46,10 @@ void refuse_too_many_cells(const volmesh::TetMesh& mesh, const refine::SizeField
                                      least_number, options.max_cells));
 }
 
-/// "12 vertices are short of hole/side, the farthest by 0.01 at (1, 2, 3)", and so on for each combination of
-/// surfaces.
-std::string words_for(const std::vector<refine::ShortOfTarget>& all) {
-    std::map<std::vector<std::string>, std::vector<const refine::ShortOfTarget*>> by_surfaces;
-    for (const refine::ShortOfTarget& each : all) by_surfaces[each.surfaces].push_back(&each);
-    std::vector<std::string> lines;
-    for (const auto& [surfaces, members] : by_surfaces) {
-        const refine::ShortOfTarget& farthest = **std::ranges::max_element(members, {}, [](const auto* each) {
-            return each->distance.value_or(std::numeric_limits<double>::infinity());
-        });
-        const std::string distance = farthest.distance ? fmt::format("by {:.3g}", *farthest.distance)
-                                                       : std::string("with no common point of them nearby");
-        lines.push_back(fmt::format("{} {} short of {}, the farthest {} at ({:.6g}, {:.6g}, {:.6g})",
-                                    members.size(), members.size() == 1 ? "vertex is" : "vertices are",
-                                    fmt::join(surfaces, " and "), distance, farthest.place.x(),
-                                    farthest.place.y(), farthest.place.z()));
-    }
-    return fmt::format("{}", fmt::join(lines, "; "));
-}
-
 auto notes_to(Progress& progress) {
     return [&progress](const refine::Progress& pass) {
         progress.note(fmt::format("pass {}, {} cells", pass.iterations, pass.cells));
     };
-}
-
-void warn_of_short(const refine::RefineResult& result, Progress& progress) {
-    if (!result.projection.short_of_target.empty())
-        progress.warn(words_for(result.projection.short_of_target));
 }
 
 }  // namespace
@@ -135,7 +109,7 @@ refine::RefineResult refine_with_progress(volmesh::TetMesh& mesh, const refine::
     if (!result.ended)
         progress.warn(fmt::format("refinement was stopped after {} passes, with elements left to refine",
                                   result.iterations));
-    warn_of_short(result, progress);
+    warn_of_short(result.projection, progress);
     return result;
 }
 
@@ -143,7 +117,7 @@ refine::RefineResult refine_uniformly_with_progress(volmesh::TetMesh& mesh, refi
                                                     const volmesh::Projector* projector, Progress& progress) {
     options.progress = notes_to(progress);
     refine::RefineResult result = refine::refine_uniformly(mesh, options, projector);
-    warn_of_short(result, progress);
+    warn_of_short(result.projection, progress);
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include "modeler/build.hh"
 #include "tools/maille/improvement.hh"
 #include "tools/maille/refine_options.hh"
+#include "tools/maille/short_of_target.hh"
 
 namespace maille::tools {
 namespace {
@@ -43,6 +44,8 @@ volmesh::TetMesh build(const modeler::Model& model, double size, int threads, Pr
     modeler::BuildReport report;
     volmesh::TetMesh mesh = modeler::build(model, options, &report);
     for (const std::string& warning : report.warnings) progress.warn(warning);
+    warn_of_short(report.projection, progress);
+    summary.add(report.projection);
     summary.clock.add(Phase::primitives, {report.primitives.cpu_seconds, report.primitives.wall_seconds});
     summary.clock.add(Phase::merge, {report.merge.cpu_seconds, report.merge.wall_seconds});
     summary.clock.skip();

@@ -19,9 +19,10 @@ void print_json(const Summary& summary, const volmesh::TetMesh& mesh) {
 void print_text(const Summary& summary, const volmesh::TetMesh& mesh, const std::string& path) {
     fmt::print("{}: {} cells, {} vertices, {} sets\n", path, mesh.n_cells(), mesh.n_vertices(),
                mesh.n_sets());
-    if (summary.iterations > 0)
-        fmt::print("refined in {} passes; {} vertices moved onto their surfaces, {} short of them\n",
-                   summary.iterations, summary.moved, summary.short_of_target);
+    if (summary.iterations > 0) fmt::print("refined in {} passes\n", summary.iterations);
+    if (summary.iterations > 0 || summary.short_of_target > 0)
+        fmt::print("{} vertices moved onto their surfaces, {} short of them\n", summary.moved,
+                   summary.short_of_target);
     if (summary.edits > 0) fmt::print("improved by {} edits\n", summary.edits);
     fmt::print("{:.2f} s, {:.2f} s of processor time\n", summary.clock.total().wall,
                summary.clock.total().cpu);
@@ -29,10 +30,14 @@ void print_text(const Summary& summary, const volmesh::TetMesh& mesh, const std:
 
 }  // namespace
 
-void Summary::add(const refine::RefineResult& result) {
+void Summary::add(const refine::RefineResult& result, bool has_projected) {
     iterations += result.iterations;
-    moved += result.projection.moved;
-    short_of_target += result.projection.short_of_target.size();
+    if (has_projected) add(result.projection);
+}
+
+void Summary::add(const quality::ProjectionResult& projection) {
+    moved += projection.moved;
+    short_of_target = projection.short_of_target.size();
 }
 
 void Summary::print(const volmesh::TetMesh& mesh, const std::string& path,

@@ -17,7 +17,9 @@ struct Summary {
     std::size_t edits = 0;            ///< of improvement: moves and changes of connectivity
     PhaseClock clock;
 
-    void add(const refine::RefineResult& result);
+    /// What is short of its surfaces then is told, if new vertices were projected.
+    void add(const refine::RefineResult& result, bool has_projected = true);
+    void add(const quality::ProjectionResult& projection);
     /// On stdout: as JSON or, unless it is to be quiet, as text.
     void print(const volmesh::TetMesh& mesh, const std::string& path, const CommonOptions& options) const;
 };

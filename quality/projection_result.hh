@@ -7,7 +7,7 @@
 
 #include "volmesh/tet_mesh.hh"
 
-namespace maille::refine {
+namespace maille::quality {
 
 /// A vertex that could not be brought onto all its surfaces.
 struct ShortOfTarget {
@@ -23,4 +23,4 @@ struct ProjectionResult {
     std::vector<ShortOfTarget> short_of_target;  ///< by vertex, ascending
 };
 
-}  // namespace maille::refine
+}  // namespace maille::quality

@@ -1,4 +1,4 @@
-#include "refine/project.hh"
+#include "quality/boundary_projection.hh"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "refine/relocate.hh"
+#include "quality/relocate.hh"
 #include "volmesh/error.hh"
 
-namespace maille::refine {
+namespace maille::quality {
 namespace {
 
 bool is_inside(const TetMesh& mesh, CellHandle c, int edge) {
@@ -41,6 +41,15 @@ void require_min_shape(double min_shape) {
         throw InputError(fmt::format("the least shape must be above 0 and at most 1, not {}", min_shape));
 }
 
+ShortOfTarget short_of_target(const TetMesh& mesh, const volmesh::Projector& projector,
+                              const VertexSupport& support) {
+    ShortOfTarget left{support.vertex, mesh.point(support.vertex), {}, {}};
+    for (const std::uint32_t surface : support.surfaces) left.surfaces.push_back(projector.surfaces[surface]);
+    const auto target = projector.project({support.surfaces.data(), support.surfaces.size()}, left.place);
+    if (target && target->allFinite()) left.distance = (*target - left.place).norm();
+    return left;
+}
+
 BoundaryProjection::BoundaryProjection(TetMesh& mesh, const volmesh::Projector& projector, double min_shape)
     : mesh_(mesh),
       projector_(projector),
@@ -50,8 +59,11 @@ BoundaryProjection::BoundaryProjection(TetMesh& mesh, const volmesh::Projector& 
       tolerance_(1e-12 * projector.model_size) {}
 
 void BoundaryProjection::take_up(std::uint32_t first, std::span<const CellHandle> cells) {
-    for (auto& [vertex, support] : supports_from(mesh_, surfaces_of_, first, cells))
-        waiting_.push_back({vertex, std::move(support), Point::Zero()});
+    take_up(supports_from(mesh_, surfaces_of_, first, cells));
+}
+
+void BoundaryProjection::take_up(std::span<const VertexSupport> supports) {
+    for (const VertexSupport& support : supports) waiting_.push_back({support, Point::Zero()});
 }
 
 std::vector<CellHandle> BoundaryProjection::run() {
@@ -80,7 +92,7 @@ void BoundaryProjection::find_targets() {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, waiting_.size(), 64), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             Waiting& waiting = waiting_[i];
-            const auto target = projector_.project({waiting.support.data(), waiting.support.size()},
+            const auto target = projector_.project({waiting.surfaces.data(), waiting.surfaces.size()},
                                                    mesh_.point(waiting.vertex));
             waiting.has_target = target && target->allFinite();
             if (waiting.has_target) waiting.target = *target;
@@ -130,6 +142,7 @@ bool BoundaryProjection::make_room(const Waiting& waiting) {
     const Point way = waiting.target - mesh_.point(waiting.vertex);
     bool has_moved = false;
     for (const VertexHandle v : mesh_.vv_range(waiting.vertex)) {
+        if (v.idx() < n_held_) continue;
         const CellList cells = mesh_.vc_range(v);
         if (!is_free(mesh_, v, cells)) continue;
         const Point targets[] = {polyhedron_centroid(mesh_, cells), mesh_.point(v) + way};
@@ -155,14 +168,8 @@ std::vector<CellHandle> BoundaryProjection::take_changed() {
 
 std::vector<ShortOfTarget> BoundaryProjection::short_of_target() const {
     std::vector<ShortOfTarget> all;
-    for (const Waiting& waiting : waiting_) {
-        ShortOfTarget& left = all.emplace_back();
-        left.vertex = waiting.vertex;
-        left.place = mesh_.point(waiting.vertex);
-        for (const std::uint32_t surface : waiting.support)
-            left.surfaces.push_back(projector_.surfaces[surface]);
-        if (waiting.has_target) left.distance = (waiting.target - left.place).norm();
-    }
+    for (const Waiting& waiting : waiting_)
+        all.push_back(quality::short_of_target(mesh_, projector_, waiting));
     std::ranges::sort(all, {}, &ShortOfTarget::vertex);
     return all;
 }
@@ -180,4 +187,4 @@ std::vector<CellEdge> BoundaryProjection::blocking_edges() const {
     return found;
 }
 
-}  // namespace maille::refine
+}  // namespace maille::quality

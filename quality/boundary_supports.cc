@@ -1,12 +1,11 @@
-#include "refine/support.hh"
+#include "quality/boundary_supports.hh"
 
 #include <algorithm>
 
-namespace maille::refine {
+namespace maille::quality {
 
-std::vector<std::pair<volmesh::VertexHandle, volmesh::Surfaces>> supports_from(
-    const volmesh::TetMesh& mesh, volmesh::FaceSurfaces& surfaces_of, std::uint32_t first,
-    std::span<const volmesh::CellHandle> cells) {
+std::vector<VertexSupport> supports_from(const volmesh::TetMesh& mesh, volmesh::FaceSurfaces& surfaces_of,
+                                         std::uint32_t first, std::span<const volmesh::CellHandle> cells) {
     std::vector<volmesh::Surfaces> supports(mesh.n_vertices() - first);
     for (const volmesh::CellHandle c : cells) {
         for (int face = 0; face < 4; ++face) {
@@ -19,11 +18,10 @@ std::vector<std::pair<volmesh::VertexHandle, volmesh::Surfaces>> supports_from(
                 if (v.idx() >= first) volmesh::add(supports[v.idx() - first], surfaces);
         }
     }
-    std::vector<std::pair<volmesh::VertexHandle, volmesh::Surfaces>> found;
+    std::vector<VertexSupport> found;
     for (std::uint32_t i = 0; i < supports.size(); ++i)
-        if (!supports[i].empty())
-            found.emplace_back(volmesh::VertexHandle(first + i), std::move(supports[i]));
+        if (!supports[i].empty()) found.push_back({volmesh::VertexHandle(first + i), std::move(supports[i])});
     return found;
 }
 
-}  // namespace maille::refine
+}  // namespace maille::quality

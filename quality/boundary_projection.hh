@@ -3,18 +3,22 @@
 #include <span>
 #include <vector>
 
-#include "refine/projection_result.hh"
-#include "refine/support.hh"
+#include "quality/boundary_supports.hh"
+#include "quality/projection_result.hh"
 #include "volmesh/projector.hh"
 #include "volmesh/tet_mesh.hh"
 
-namespace maille::refine {
+namespace maille::quality {
 
 /// An edge, by a cell and its local number there.
 struct CellEdge {
     volmesh::CellHandle cell;
     int edge;
 };
+
+/// How far the vertex is from its surfaces, and what these are.
+ShortOfTarget short_of_target(const volmesh::TetMesh& mesh, const volmesh::Projector& projector,
+                              const VertexSupport& support);
 
 /// Throws InputError where this is no least shape that a move may leave: it must be above 0 and at most 1.
 void require_min_shape(double min_shape);
@@ -30,8 +34,14 @@ class BoundaryProjection {
     /// less before; as long as there is another way, none leaves less than 0.05.
     BoundaryProjection(volmesh::TetMesh& mesh, const volmesh::Projector& projector, double min_shape);
 
-    /// Takes up the vertices from `first` on; the cells given are all that have one of them, or more.
+    /// From now on the first so many vertices of the mesh make no room for others: they stay.
+    void hold(std::uint32_t n_vertices) { n_held_ = n_vertices; }
+
+    /// Takes up the vertices from `first` on, with the surfaces that their faces' sets name; the cells given
+    /// are all that have one of them, or more.
     void take_up(std::uint32_t first, std::span<const volmesh::CellHandle> cells);
+    /// Takes up vertices of which the surfaces are known.
+    void take_up(std::span<const VertexSupport> supports);
 
     /// Moves the vertices that are not on their surfaces yet. Returns the cells whose points have moved,
     /// ascending.
@@ -52,9 +62,7 @@ class BoundaryProjection {
     std::vector<CellEdge> blocking_edges() const;
 
   private:
-    struct Waiting {
-        volmesh::VertexHandle vertex;
-        volmesh::Surfaces support;
+    struct Waiting : VertexSupport {
         volmesh::Point target;
         bool has_target = false;
         bool has_moved = false;
@@ -75,6 +83,7 @@ class BoundaryProjection {
     std::vector<Waiting> waiting_;
     std::vector<volmesh::CellHandle> changed_;
     std::size_t n_moved_ = 0;
+    std::uint32_t n_held_ = 0;
 };
 
-}  // namespace maille::refine
+}  // namespace maille::quality

@@ -1,4 +1,4 @@
-#include "refine/relocate.hh"
+#include "quality/relocate.hh"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "volmesh/orientation.hh"
 
-namespace maille::refine {
+namespace maille::quality {
 
-double shape(const Point& a, const Point& b, const Point& c, const Point& d) {
+double exact_gamma(const Point& a, const Point& b, const Point& c, const Point& d) {
     if (volmesh::orientation(a, b, c, d) <= 0) return 0;
     const Point u = b - a, v = c - a, w = d - a;
     const double squares = u.squaredNorm() + v.squaredNorm() + w.squaredNorm() + (v - u).squaredNorm() +
@@ -24,7 +24,7 @@ double worst_shape(const TetMesh& mesh, const CellList& cells, VertexHandle v, c
     for (const CellHandle c : cells) {
         auto p = mesh.cell_points(c);
         p[mesh.local_vertex(c, v)] = at;
-        worst = std::min(worst, shape(p[0], p[1], p[2], p[3]));
+        worst = std::min(worst, exact_gamma(p[0], p[1], p[2], p[3]));
     }
     return worst;
 }
@@ -78,4 +78,4 @@ bool relax(TetMesh& mesh, VertexHandle v, const CellList& cells) {
     return relocate(mesh, v, cells, {&centroid, 1});
 }
 
-}  // namespace maille::refine
+}  // namespace maille::quality

@@ -4,7 +4,7 @@
 
 #include "volmesh/tet_mesh.hh"
 
-namespace maille::refine {
+namespace maille::quality {
 
 using volmesh::CellHandle;
 using volmesh::CellList;
@@ -14,7 +14,7 @@ using volmesh::VertexHandle;
 
 /// Shape of the tetrahedron, 6 sqrt(2) V / Lrms^3 (the paper's gamma): 1 where it is regular, 0 where it is
 /// flat or inverted, which is decided exactly.
-double shape(const Point& a, const Point& b, const Point& c, const Point& d);
+double exact_gamma(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// The worst shape among the cells, if the vertex were at `at`.
 double worst_shape(const TetMesh& mesh, const CellList& cells, VertexHandle v, const Point& at);
@@ -35,4 +35,4 @@ bool relocate(TetMesh& mesh, VertexHandle v, const CellList& cells, std::span<co
 /// repositionning".)
 bool relax(TetMesh& mesh, VertexHandle v, const CellList& cells);
 
-}  // namespace maille::refine
+}  // namespace maille::quality
