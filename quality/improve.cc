@@ -49,8 +49,7 @@ ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmes
     ImproveResult result;
     Improver improver(mesh, std::move(shapes), options, projector, result);
     result.worst_before = improver.worst();
-    // What this leaves below good_enough the passes better.
-    improver.raise_mean(options.good_enough);
+    improver.raise_mean();
     auto tries_left = static_cast<std::size_t>(std::ceil(options.tries_per_cell * mesh.n_cells()));
     const std::size_t most_tries = (tries_left + 3) / 4;
     bool all_moves = false;
@@ -63,7 +62,7 @@ ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmes
         all_moves = !all_moves && pass > 0;
     }
     // They may cost some of the mean.
-    if (improver.mean_beta() < options.good_mean) improver.raise_mean(options.good_enough);
+    if (improver.mean_beta() < options.good_mean) improver.raise_mean();
     result.worst_after = improver.worst();
     if (mesh.has_deleted()) mesh.garbage_collection();
     return result;

@@ -20,8 +20,8 @@ struct ImproveOptions {
     double good_enough = 0.5;
     /// Whether connectivity may change: by flips, removal of edges and faces, edge collapse and edge split.
     bool may_change_cells = true;
-    /// Most sweeps to raise the mean of beta: each removes edges inside the mesh where the mean is below
-    /// `good_mean`, and then moves vertices. They end when it is no longer, or gains little.
+    /// Most sweeps to raise the mean of beta: each removes and collapses edges inside the mesh where the mean
+    /// is below `good_mean`, and then moves vertices. They end when it is no longer, or gains little.
     int mean_sweeps = 8;
     double good_mean = 0.8;  ///< mean of beta over the cells of an edge
     /// Wanted edge lengths; a move makes no cell longer than `ratio` times the size at its centroid, unless
@@ -47,14 +47,13 @@ struct ImproveResult {
     std::size_t edits() const { return moves + edge_removals + face_removals + collapses + splits; }
 };
 
-/// Betters a mesh: raises the mean of beta by sweeps over all of it, if that is low (mean_moves.hh,
-/// mean_flips.hh); then betters the worst cells: moves vertices, removes edges and faces, collapses and
-/// splits edges, the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R. Shewchuk,
-/// "Aggressive tetrahedral mesh improvement", 2007.
+/// Betters a mesh: raises the mean of beta by sweeps over all of it, if that is low (mean_flips.hh,
+/// mean_collapses.hh, mean_moves.hh); then betters the worst cells: moves vertices, removes edges and faces,
+/// collapses and splits edges, the worst cell first, until a pass finds nothing. After B. M. Klingner, J. R.
+/// Shewchuk, "Aggressive tetrahedral mesh improvement", 2007.
 ///
-/// No move lowers the least objective of the cells that it changes, but that one for the mean may where all
-/// of them stay good enough. So the mesh's least never goes down, and an inverted cell may come right but
-/// none arises. Sets and properties pass on by their rules, the volume of
+/// No move lowers the least objective of the cells that it changes. So the mesh's least never goes down, and
+/// an inverted cell may come right but none arises. Sets and properties pass on by their rules, the volume of
 /// each cell set and the area of each flat face set stay. Vertices keep to their geometric support: the
 /// surfaces that their faces' sets name, where `projector` knows these; else the planes of their faces, where
 /// these are flat; else they stay. So do vertices in a vertex set, on an edge of an edge set, and where two

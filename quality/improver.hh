@@ -30,9 +30,8 @@ class Improver {
         std::size_t tries, edits;
     };
     Pass pass(bool all_moves, std::size_t most_tries);
-    /// Raises the mean of beta by sweeps over the mesh. No cell comes to be the mesh's worst; else cells may
-    /// get worse as far as `least_objective`.
-    void raise_mean(double least_objective);
+    /// Raises the mean of beta by sweeps over the mesh.
+    void raise_mean();
 
     /// Of the mesh: the mean of beta, and the least objective.
     double mean_beta() const;
@@ -61,7 +60,7 @@ class Improver {
                              const Freedom& freedom);
 
     // improver_mean.cc
-    std::size_t slide_for_mean(double floor, const std::vector<std::uint8_t>& is_free);
+    std::size_t slide_for_mean(const std::vector<std::uint8_t>& is_free);
 
     // improver_flips.cc
     struct EdgeRemoval {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "quality/improver.hh"
+#include "quality/mean_collapses.hh"
 #include "quality/mean_flips.hh"
 #include "quality/mean_moves.hh"
 #include "quality/smooth.hh"
@@ -18,26 +19,27 @@ double Improver::mean_beta() const {
     return n > 0 ? sum / static_cast<double>(n) : 1;
 }
 
-void Improver::raise_mean(double least_objective) {
+void Improver::raise_mean() {
     constexpr double little = 0.003;
-    const double floor = std::max(worst(), least_objective);
     const std::vector<std::uint8_t> is_free = free_vertices(mesh_);
     double mean = mean_beta();
     for (int sweep = 0; sweep < options_.mean_sweeps; ++sweep) {
         const double before = mean;
-        if (mean < options_.good_mean && options_.may_change_cells)
-            result_.edge_removals += flip_for_mean(mesh_, shapes_, mean, floor, limit_);
-        result_.moves += move_for_mean(mesh_, shapes_, floor, limit_, is_free);
+        if (mean < options_.good_mean && options_.may_change_cells) {
+            result_.edge_removals += flip_for_mean(mesh_, shapes_, mean, limit_);
+            result_.collapses += collapse_for_mean(mesh_, shapes_, mean_beta(), limit_, is_free);
+        }
+        result_.moves += move_for_mean(mesh_, shapes_, limit_, is_free);
         mean = mean_beta();
         if (mean >= options_.good_mean) break;
-        result_.moves += slide_for_mean(floor, is_free);
+        result_.moves += slide_for_mean(is_free);
         mean = mean_beta();
         if (mean >= options_.good_mean || mean < before + little) break;
     }
 }
 
 /// Moves vertices on surfaces, curves and flat sides.
-std::size_t Improver::slide_for_mean(double floor, const std::vector<std::uint8_t>& is_free) {
+std::size_t Improver::slide_for_mean(const std::vector<std::uint8_t>& is_free) {
     std::size_t n_moves = 0;
     for (std::uint32_t i = 0; i < mesh_.n_vertices(); ++i) {
         const VertexHandle v(i);
@@ -47,9 +49,8 @@ std::size_t Improver::slide_for_mean(double floor, const std::vector<std::uint8_
         if (bound.is_fixed) continue;
         const Point start = mesh_.point(v);
         const Bases bases = bases_at(v, cells);
-        const auto found =
-            higher_place(bases, start, std::min(floor, quality(cells)), Constraint(bound, start, projector_),
-                         allowed_places(v, cells, bases, bound));
+        const auto found = higher_place(bases, start, quality(cells), Constraint(bound, start, projector_),
+                                        allowed_places(v, cells, bases, bound));
         if (!found) continue;
         mesh_.set_point(v, found->point);
         for (std::size_t k = 0; k < cells.size(); ++k) shapes_[cells[k].idx()] = found->shapes[k];

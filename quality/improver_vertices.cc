@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "quality/collapse_trial.hh"
 #include "quality/improver.hh"
 #include "quality/smooth.hh"
 #include "volmesh/collapse.hh"
@@ -12,13 +13,6 @@ using volmesh::TetMesh;
 
 constexpr double least_gain = 1e-3;
 
-double longest_edge_squared(const std::array<Point, 4>& p) {
-    double longest = 0;
-    for (const auto& [i, j] : volmesh::tet::edge_vertices)
-        longest = std::max(longest, (p[i] - p[j]).squaredNorm());
-    return longest;
-}
-
 }  // namespace
 
 std::optional<Improver::Collapse> Improver::collapse_of(VertexHandle gone, VertexHandle heir, double floor) {
@@ -27,19 +21,9 @@ std::optional<Improver::Collapse> Improver::collapse_of(VertexHandle gone, Verte
     if (bound.is_fixed) return std::nullopt;
     floor = std::max(floor, quality(cells) + least_gain);
     const Point& to = mesh_.point(heir);
-    double worst = std::numeric_limits<double>::infinity();
-    double longest_before = 0;
-    for (CellHandle c : cells)
-        longest_before = std::max(longest_before, longest_edge_squared(mesh_.cell_points(c)));
-    const double most_excess = excess(cells);
-    for (CellHandle c : cells) {
-        if (mesh_.local_vertex(c, heir) >= 0) continue;
-        auto p = mesh_.cell_points(c);
-        p[mesh_.local_vertex(c, gone)] = to;
-        worst = std::min(worst, objective(p[0], p[1], p[2], p[3]));
-        if (!(worst > floor) || longest_edge_squared(p) > longest_before || limit_.excess(p) > most_excess)
-            return std::nullopt;
-    }
+    const auto outcome =
+        CollapseTrial(mesh_, gone, {cells.data(), cells.size()}, limit_).outcome(heir, floor);
+    if (!outcome) return std::nullopt;
     double tolerance = 1e-10 * (to - mesh_.point(gone)).norm();
     if (!bound.surfaces.empty()) {
         const SurfacePieces pieces(mesh_, gone, cells, surfaces_of_);
@@ -49,7 +33,7 @@ std::optional<Improver::Collapse> Improver::collapse_of(VertexHandle gone, Verte
         tolerance = std::numeric_limits<double>::infinity();
     }
     if (!volmesh::is_collapse_ok(mesh_, gone, heir, tolerance)) return std::nullopt;
-    return Collapse{gone, heir, worst};
+    return Collapse{gone, heir, outcome->least_objective};
 }
 
 bool Improver::collapse(CellHandle c) {

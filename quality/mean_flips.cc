@@ -1,6 +1,7 @@
 #include "quality/mean_flips.hh"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include <tbb/blocked_range.h>
@@ -21,10 +22,6 @@ using volmesh::VertexHandle;
 constexpr std::size_t max_ring = 7;
 /// A removal must raise the sum by this much.
 constexpr double least_gain = 1e-3;
-
-struct Goal {
-    double mean, floor;
-};
 
 std::pair<double, std::uint32_t> order(const std::vector<Shape>& shapes, CellHandle c) {
     return {shapes[c.idx()].beta, c.idx()};
@@ -77,10 +74,10 @@ bool is_in_one_region(const TetMesh& mesh, const EdgeRing& ring) {
 /// polygonal domains", 1980).
 class BestFilling {
   public:
-    BestFilling(const TetMesh& mesh, const EdgeRing& ring, const std::vector<Shape>& shapes, const Goal& goal)
-        : a_(mesh.point(ring.a)), b_(mesh.point(ring.b)), goal_(goal), floor_(goal.floor) {
+    BestFilling(const TetMesh& mesh, const EdgeRing& ring, const std::vector<Shape>& shapes, double mean)
+        : a_(mesh.point(ring.a)), b_(mesh.point(ring.b)), mean_(mean) {
         for (const CellHandle c : ring.cells) {
-            before_ += shapes[c.idx()].beta - goal.mean;
+            before_ += shapes[c.idx()].beta - mean;
             floor_ = std::min(floor_, shapes[c.idx()].objective);
         }
         const std::size_t n = ring.size();
@@ -112,20 +109,20 @@ class BestFilling {
         Part& part = parts_[i][j];
         for (std::size_t k = i + 1; k < j; ++k) {
             const double rest = parts_[i][k].sum + parts_[k][j].sum;
-            const double most = 2 * (1 - goal_.mean);
+            const double most = 2 * (1 - mean_);
             if (!(rest + most > part.sum)) continue;
             const Shape one = shape(a_, points_[i], points_[k], points_[j]);
             if (!(one.objective > floor_)) continue;
             const Shape other = shape(points_[i], points_[k], points_[j], b_);
             if (!(other.objective > floor_)) continue;
-            const double sum = rest + one.beta + other.beta - 2 * goal_.mean;
+            const double sum = rest + one.beta + other.beta - 2 * mean_;
             if (sum > part.sum) part = {sum, k};
         }
     }
 
     Point a_, b_;
-    Goal goal_;
-    double floor_;
+    double mean_;
+    double floor_ = std::numeric_limits<double>::infinity();
     double before_ = 0;
     double gain_;
     std::array<Point, max_ring> points_;
@@ -141,21 +138,21 @@ struct Candidate {
     auto order() const { return std::tuple(-gain, cell.idx(), edge); }
 };
 
-std::vector<Candidate> candidates(const TetMesh& mesh, const std::vector<Shape>& shapes, const Goal& goal) {
+std::vector<Candidate> candidates(const TetMesh& mesh, const std::vector<Shape>& shapes, double mean) {
     constexpr std::uint32_t block = 1024;
     std::vector<std::vector<Candidate>> found((mesh.n_cells() + block - 1) / block);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
         const auto begin = static_cast<std::uint32_t>(b) * block;
         const std::uint32_t end = std::min(begin + block, mesh.n_cells());
         for (std::uint32_t i = begin; i < end; ++i) {
-            if (!(shapes[i].beta < goal.mean) || mesh.is_deleted(CellHandle(i))) continue;
+            if (!(shapes[i].beta < mean) || mesh.is_deleted(CellHandle(i))) continue;
             const unsigned worse = worse_neighbors(mesh, shapes, CellHandle(i));
             for (int e = 0; e < 6; ++e) {
                 const auto [k, l] = volmesh::tet::edge_vertices[volmesh::tet::opposite_edge(e)];
                 if ((worse >> k & 1) != 0 || (worse >> l & 1) != 0) continue;
                 const auto ring = ring_of_worst(mesh, shapes, CellHandle(i), e);
                 if (!ring || !is_in_one_region(mesh, *ring)) continue;
-                const double gain = BestFilling(mesh, *ring, shapes, goal).gain();
+                const double gain = BestFilling(mesh, *ring, shapes, mean).gain();
                 if (gain > least_gain) found[b].push_back({gain, CellHandle(i), e});
             }
         }
@@ -182,21 +179,19 @@ bool keeps_size(const TetMesh& mesh, const EdgeRing& ring, const std::vector<Rin
 
 }  // namespace
 
-std::size_t flip_for_mean(TetMesh& mesh, std::vector<Shape>& shapes, double mean, double floor,
-                          const SizeLimit& limit) {
-    const Goal goal{mean, floor};
+std::size_t flip_for_mean(TetMesh& mesh, std::vector<Shape>& shapes, double mean, const SizeLimit& limit) {
     const auto measure = [&](CellHandle c) {
         const auto p = mesh.cell_points(c);
-        shapes[c.idx()] = mesh.is_deleted(c) ? Shape{1, 1} : shape(p[0], p[1], p[2], p[3]);
+        shapes[c.idx()] = mesh.is_deleted(c) ? perfect_shape : shape(p[0], p[1], p[2], p[3]);
     };
     std::size_t n_removed = 0;
     std::vector<RingTriangle> triangles;
-    for (const Candidate& candidate : candidates(mesh, shapes, goal)) {
+    for (const Candidate& candidate : candidates(mesh, shapes, mean)) {
         // What was there may have changed since, and is looked at anew.
         if (mesh.is_deleted(candidate.cell)) continue;
         const auto ring = ring_of_worst(mesh, shapes, candidate.cell, candidate.edge);
         if (!ring || !is_in_one_region(mesh, *ring)) continue;
-        const BestFilling filling(mesh, *ring, shapes, goal);
+        const BestFilling filling(mesh, *ring, shapes, mean);
         if (!(filling.gain() > least_gain)) continue;
         triangles.clear();
         filling.append_triangles(0, ring->size() - 1, triangles);

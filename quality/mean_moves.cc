@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <limits>
 #include <span>
 
 #include <tbb/blocked_range.h>
@@ -40,9 +41,9 @@ std::vector<std::vector<VertexHandle>> independent_groups(const TetMesh& mesh, c
 }
 
 /// Moves a vertex that may go anywhere, if that is worth while; returns whether it was.
-bool move(TetMesh& mesh, VertexHandle v, Cells cells, std::vector<Shape>& shapes, double floor,
-          const SizeLimit& limit) {
+bool move(TetMesh& mesh, VertexHandle v, Cells cells, std::vector<Shape>& shapes, const SizeLimit& limit) {
     Bases bases;
+    double floor = std::numeric_limits<double>::infinity();
     for (const CellHandle c : cells) {
         const auto face = mesh.halfface_vertices(TetMesh::halfface(c, mesh.local_vertex(c, v)));
         bases.push_back({mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2])});
@@ -60,7 +61,7 @@ bool move(TetMesh& mesh, VertexHandle v, Cells cells, std::vector<Shape>& shapes
 
 }  // namespace
 
-std::size_t move_for_mean(TetMesh& mesh, std::vector<Shape>& shapes, double floor, const SizeLimit& limit,
+std::size_t move_for_mean(TetMesh& mesh, std::vector<Shape>& shapes, const SizeLimit& limit,
                           const std::vector<std::uint8_t>& is_free) {
     const VertexCells cells_of = volmesh::vertex_cells(mesh);
     std::atomic<std::size_t> n_moves = 0;
@@ -70,7 +71,7 @@ std::size_t move_for_mean(TetMesh& mesh, std::vector<Shape>& shapes, double floo
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, group.size(), grain), [&](const auto& range) {
             std::size_t n = 0;
             for (std::size_t i = range.begin(); i < range.end(); ++i)
-                n += move(mesh, group[i], cells_of[group[i]], shapes, floor, limit);
+                n += move(mesh, group[i], cells_of[group[i]], shapes, limit);
             n_moves += n;
         });
     }

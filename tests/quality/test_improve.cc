@@ -339,13 +339,9 @@ TEST_CASE("a large mesh that is far from its aim, too, comes out the same with a
 TEST_CASE("raising the mean makes no cell the worst") {
     TetMesh mesh = bisected_cube(12);
     const TetMesh start = mesh;
-    const double floor = worst(mesh);
-    for (const double good_enough : {floor / 2, floor, 0.45, 1.0}) {
-        mesh = start;
-        improve(mesh, {.max_passes = 0, .good_enough = good_enough, .good_mean = 1});
-        CHECK(assess(mesh)[Measure::beta].mean > assess(start)[Measure::beta].mean + 0.05);
-        CHECK(worst(mesh) >= floor);
-    }
+    improve(mesh, {.max_passes = 0, .good_mean = 1});
+    CHECK(assess(mesh)[Measure::beta].mean > assess(start)[Measure::beta].mean + 0.05);
+    CHECK(worst(mesh) >= worst(start));
 }
 
 TEST_CASE("no cell becomes longer than the size allows") {
