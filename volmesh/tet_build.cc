@@ -43,28 +43,49 @@ void require_four_of(std::size_t n_points, const std::array<TetMesh::Index, 4>& 
 }  // namespace
 
 TetMesh TetMesh::from_cells(std::vector<Point> points, std::vector<std::array<Index, 4>> cells) {
+    Column<Cell> column;
+    column.grow(cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) column[c] = {cells[c], {none, none, none, none}};
+    cells = {};
+    return from_linked_cells(std::move(points), std::move(column));
+}
+
+TetMesh TetMesh::from_linked_cells(std::vector<Point> points, Column<Cell> cells) {
     if (cells.size() >= none / 8 || points.size() >= none)
         throw InputError(
             fmt::format("a mesh of {} cells is too large: at most {} fit", cells.size(), none / 8 - 1));
-    for (std::size_t c = 0; c < cells.size(); ++c) require_four_of(points.size(), cells[c], c);
+    for (std::size_t c = 0; c < cells.size(); ++c) require_four_of(points.size(), cells[c].vertices, c);
     TetMesh mesh;
     mesh.points_.assign(std::exchange(points, {}));
-    mesh.cells_.grow(cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c) mesh.cells_[c] = {cells[c], {none, none, none, none}};
-    cells = {};
+    mesh.cells_ = std::move(cells);
     mesh.link_neighbors();
     mesh.find_vertex_cells();
     mesh.find_pinches();
     return mesh;
 }
 
+// Brings together the faces whose neighbours are not known.
 void TetMesh::link_neighbors() {
-    n_boundary_ = linking::link_faces(
-        n_vertices(), n_cells(), [&](Index c) -> const auto& { return cells_[c].vertices; },
-        [&](Index halfface, Index other) {
-            cells_[halfface / 4].neighbors[halfface % 4] = other;
-            cells_[other / 4].neighbors[other % 4] = halfface;
-        });
+    const auto vertices_of = [&](Index c) -> const auto& {
+        return cells_[c].vertices;
+    };
+    const auto link = [&](Index halfface, Index other) {
+        cells_[halfface / 4].neighbors[halfface % 4] = other;
+        cells_[other / 4].neighbors[other % 4] = halfface;
+    };
+    const std::size_t few = n_cells() / 4;
+    std::vector<Index> unknown;
+    for (Index hf = 0; hf < n_halffaces() && unknown.size() <= few; ++hf)
+        if (cells_[hf / 4].neighbors[hf % 4] == none) unknown.push_back(hf);
+    if (unknown.size() > few) {
+        // Then all anew, by many threads and in parts that fit into the cache.
+        n_boundary_ = linking::link_faces(n_vertices(), n_cells(), vertices_of, link);
+        return;
+    }
+    linking::Pairing pairing;
+    pairing.gather(unknown, vertices_of);
+    if (!pairing.link(link)) pairing.fail();
+    n_boundary_ = pairing.n_single();
 }
 
 void TetMesh::find_vertex_cells() {

@@ -48,18 +48,23 @@ TetMesh TetMesh::taken(std::span<const VertexHandle> vertices, std::span<const C
         new_vertices[v] = static_cast<Index>(points.size());
         points.push_back(points_[v]);
     }
-    std::vector<std::array<Index, 4>> corners;
-    corners.reserve(old_cells.size());
-    for (Index c : old_cells) {
-        auto& cell = corners.emplace_back(cells_[c].vertices);
-        for (Index& v : cell) {
+    std::vector<Index> new_cells(n_cells(), none);
+    for (std::size_t i = 0; i < old_cells.size(); ++i) new_cells[old_cells[i]] = static_cast<Index>(i);
+    Column<Cell> taken_cells;
+    taken_cells.grow(old_cells.size());
+    for (std::size_t i = 0; i < old_cells.size(); ++i) {
+        Cell& cell = taken_cells[i] = cells_[old_cells[i]];
+        for (Index& v : cell.vertices) {
             if (new_vertices[v] == none)
-                throw std::invalid_argument(fmt::format("cell {} has vertex {}, which is not given", c, v));
+                throw std::invalid_argument(
+                    fmt::format("cell {} has vertex {}, which is not given", old_cells[i], v));
             v = new_vertices[v];
         }
+        for (Index& hf : cell.neighbors)
+            if (hf != none) hf = new_cells[hf / 4] == none ? none : 4 * new_cells[hf / 4] + hf % 4;
     }
 
-    TetMesh mesh = from_cells(std::move(points), std::move(corners));
+    TetMesh mesh = from_linked_cells(std::move(points), std::move(taken_cells));
     mesh.sets_ = sets_;
     gather(mesh.vertex_combinations_, vertex_combinations_, old_vertices);
     gather(mesh.cell_rows_, cell_rows_, old_cells);

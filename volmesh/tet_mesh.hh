@@ -56,11 +56,20 @@ class TetMesh : public TetNavigation {
     using Index = std::uint32_t;  ///< of an entity; at most some 500 million cells fit
     static constexpr Index none = VertexHandle::invalid_index;  ///< where there is no entity
 
+    /// A cell as it is stored, so that a step from cell to cell takes one line of the cache.
+    struct alignas(32) Cell {
+        std::array<Index, 4> vertices;
+        std::array<Index, 4> neighbors;  ///< by local face: the half-face on the other side
+    };
+
     // ---- making
     /// The mesh of these cells, each four vertex indices, positively oriented: (v1-v0)x(v2-v0).(v3-v0) > 0.
     /// Orientation is not checked (see validate); throws InputError where an index is out of range, a cell
     /// has a vertex twice or more than two cells share a face, naming the cells.
     static TetMesh from_cells(std::vector<Point> points, std::vector<std::array<Index, 4>> cells);
+    /// The same of cells that know neighbours: those that are `none` are looked for, which is most of the
+    /// work. That the others are mutual and of the same vertices is not checked. The cells are not copied.
+    static TetMesh from_linked_cells(std::vector<Point> points, Column<Cell> cells);
 
     /// A vertex without cells, in no set and with the properties' defaults.
     VertexHandle add_vertex(const Point& p);
@@ -436,11 +445,6 @@ class TetMesh : public TetNavigation {
     ///@}
 
   private:
-    /// What a step from cell to cell reads and writes, so that it takes one line of the cache.
-    struct alignas(32) Cell {
-        std::array<Index, 4> vertices;
-        std::array<Index, 4> neighbors;  ///< the opposite half-face, by local face
-    };
     struct EdgeNumbers {
         std::vector<std::array<Index, 6>> of_cell;
         std::vector<Index> place;  ///< 8 * cell + local edge of one cell; `none` where the edge is gone

@@ -80,6 +80,14 @@ void check_links(const Soup& soup) {
     CHECK(mesh.n_boundary_faces() == n_boundary);
 }
 
+Column<TetMesh::Cell> linked_cells(const TetMesh& mesh) {
+    Column<TetMesh::Cell> cells;
+    for (const auto& vertices : mesh.cell_vertex_indices()) cells.push_back({vertices, {}});
+    for (Index hf = 0; hf < mesh.n_halffaces(); ++hf)
+        cells[hf / 4].neighbors[hf % 4] = mesh.opposite_halfface_handle(HalffaceHandle(hf)).idx();
+    return cells;
+}
+
 }  // namespace
 
 TEST_CASE("cells find their neighbours, whatever the numbers and the threads") {
@@ -95,6 +103,48 @@ TEST_CASE("cells find their neighbours, whatever the numbers and the threads") {
         check_links({});
         check_links({{Point::Zero()}, {}});
     }
+}
+
+TEST_CASE("neighbours that are known already need not be found") {
+    for (const Soup& soup : {shuffled(soup_of(test::kuhn_cube(13)), 3), fan(500)}) {
+        const TetMesh whole = soup.mesh();
+        const auto n = static_cast<Index>(soup.cells.size());
+        // Links among the first cells are told, but for one in so many.
+        for (const Index n_known : {n / 2, n})
+            for (const Index one_in : {3U, 90U}) {
+                Column<TetMesh::Cell> cells = linked_cells(whole);
+                for (Index hf = 0; hf < 4 * n; ++hf) {
+                    Index& other = cells[hf / 4].neighbors[hf % 4];
+                    if (std::max(hf, other) >= 4 * n_known || (hf + other) % one_in == 0)
+                        other = TetMesh::none;
+                }
+                const TetMesh mesh = TetMesh::from_linked_cells(soup.points, std::move(cells));
+                std::size_t n_wrong = 0;
+                for (const HalffaceHandle hf : whole.halffaces())
+                    n_wrong += mesh.opposite_halfface_handle(hf) != whole.opposite_halfface_handle(hf);
+                CHECK(mesh.n_boundary_faces() == whole.n_boundary_faces());
+                for (const VertexHandle v : whole.vertices())
+                    n_wrong += !std::ranges::equal(mesh.vc_range(v), whole.vc_range(v));
+                CHECK(n_wrong == 0);
+            }
+    }
+}
+
+TEST_CASE("a third cell at a face is found among neighbours that are not known") {
+    const TetMesh whole = test::kuhn_cube(13);
+    Column<TetMesh::Cell> cells = linked_cells(whole);
+    const HalffaceHandle face = TetMesh::halfface(CellHandle(5000), 1);
+    const HalffaceHandle other = whole.opposite_halfface_handle(face);
+    REQUIRE(other.is_valid());
+    for (const HalffaceHandle hf : {face, other}) cells[hf.idx() / 4].neighbors[hf.idx() % 4] = TetMesh::none;
+    const auto [a, b, c] = whole.halfface_vertices(face);
+    std::vector<Point> points(whole.points().begin(), whole.points().end());
+    points.emplace_back(9, 9, 9);
+    cells.push_back({{whole.n_vertices(), a.idx(), b.idx(), c.idx()},
+                     {TetMesh::none, TetMesh::none, TetMesh::none, TetMesh::none}});
+    const std::string told = test::message([&] { TetMesh::from_linked_cells(points, std::move(cells)); });
+    CHECK(test::has(told, "cells " + std::to_string(std::min(face, other).idx() / 4)));
+    CHECK(test::has(told, "all have the face of vertices"));
 }
 
 TEST_CASE("a face of three cells is refused by its vertices, always the same one") {
