@@ -158,8 +158,10 @@ void name_cells(TetMesh& mesh, const std::vector<std::uint32_t>& regions, const 
         if (!primitive.material.empty())
             sets[i].push_back(named_set(mesh, primitive.material, EntityKind::cell));
     }
-    for (const CellHandle c : mesh.cells())
-        for (const SetHandle set : sets[regions[c.idx()]]) mesh.insert(set, c);
+    std::vector<std::vector<CellHandle>> cells(model.primitives.size());
+    for (const CellHandle c : mesh.cells()) cells[regions[c.idx()]].push_back(c);
+    for (std::size_t i = 0; i < sets.size(); ++i)
+        for (const SetHandle set : sets[i]) mesh.insert(set, cells[i]);
 }
 
 void name_faces(TetMesh& mesh, const std::vector<std::uint32_t>& regions,

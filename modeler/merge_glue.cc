@@ -1,7 +1,9 @@
 #include "modeler/merge_glue.hh"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -22,31 +24,75 @@ using volmesh::TetMesh;
 using volmesh::VertexHandle;
 
 constexpr std::uint32_t unnumbered = 0xffffffff;
+constexpr std::array unlinked{TetMesh::none, TetMesh::none, TetMesh::none, TetMesh::none};
 
 struct NamedTriple {
     Triple vertices;
     std::uint32_t surface;
 };
 
+/// Numbers the kept cells one after another, in little memory.
+class KeptNumbers {
+  public:
+    KeptNumbers(const std::vector<std::uint8_t>& kept, std::uint32_t first)
+        : blocks_((kept.size() + 63) / 64), end_(first) {
+        for (std::size_t c = 0; c < kept.size(); ++c) {
+            Block& block = blocks_[c / 64];
+            if (c % 64 == 0) block.first = end_;
+            block.marks |= std::uint64_t{kept[c]} << c % 64;
+            end_ += kept[c];
+        }
+    }
+    /// Nothing where the cell is not kept.
+    std::optional<std::uint32_t> find(std::uint32_t c) const {
+        const Block& block = blocks_[c / 64];
+        const std::uint64_t from_here = block.marks << (63 - c % 64);
+        if (from_here >> 63U == 0) return std::nullopt;
+        return block.first + static_cast<std::uint32_t>(std::popcount(from_here)) - 1;
+    }
+    std::uint32_t end() const { return end_; }
+
+  private:
+    struct Block {
+        std::uint64_t marks = 0;  ///< bit by cell: whether it is kept
+        std::uint32_t first = 0;  ///< number of its first kept cell
+    };
+    std::vector<Block> blocks_;
+    std::uint32_t end_;
+};
+
 class Gluer {
   public:
-    void add_kept(std::uint32_t operand, const TetMesh& mesh, const std::vector<std::uint8_t>& kept) {
+    /// The kept cells of an operand, and how they lie beside each other.
+    void add_kept(std::uint32_t number, const Operand& operand, const std::vector<std::uint8_t>& kept) {
+        const TetMesh& mesh = operand.mesh;
+        const std::vector<std::uint8_t> may_meet_others = meeting_vertices(operand, kept);
+        const KeptNumbers cell_numbers(kept, static_cast<std::uint32_t>(cells_.size()));
+        merged_.regions.resize(cell_numbers.end(), number);
+        merged_.kept_cells.reserve(cell_numbers.end());
+        auto next = static_cast<std::uint32_t>(cells_.size());
+        cells_.grow(cell_numbers.end());
         std::vector<std::uint32_t> numbers(mesh.n_vertices(), unnumbered);
         for (const CellHandle c : mesh.cells()) {
             if (!kept[c.idx()]) continue;
-            std::array<std::uint32_t, 4> cell{};
+            TetMesh::Cell& cell = cells_[next++];
             for (int k = 0; k < 4; ++k) {
                 const VertexHandle v = mesh.cell_vertex(c, k);
                 if (numbers[v.idx()] == unnumbered) {
-                    numbers[v.idx()] = number_at(mesh.point(v));
+                    const Eigen::Vector3d& p = mesh.point(v);
+                    numbers[v.idx()] = may_meet_others[v.idx()] ? number_at(p) : add_point(p);
                     if (merged_.kept_vertices.size() < points_.size())
-                        merged_.kept_vertices.push_back({operand, v.idx()});
+                        merged_.kept_vertices.push_back({number, v.idx()});
                 }
-                cell[k] = numbers[v.idx()];
+                cell.vertices[k] = numbers[v.idx()];
+                cell.neighbors[k] = TetMesh::none;
+                const HalffaceHandle beyond = mesh.opposite_halfface_handle(TetMesh::halfface(c, k));
+                if (!beyond.is_valid()) continue;
+                if (const auto neighbor = cell_numbers.find(TetMesh::incident_cell(beyond).idx()))
+                    cell.neighbors[k] =
+                        TetMesh::halfface(CellHandle(*neighbor), TetMesh::local_face(beyond)).idx();
             }
-            cells_.push_back(cell);
-            merged_.regions.push_back(operand);
-            merged_.kept_cells.push_back({operand, c.idx()});
+            merged_.kept_cells.push_back({number, c.idx()});
         }
     }
 
@@ -64,7 +110,7 @@ class Gluer {
         };
         for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
             const auto& [i, j, k, l] = mesh.cells[c];
-            cells_.push_back({number(i), number(j), number(k), number(l)});
+            cells_.push_back({{number(i), number(j), number(k), number(l)}, unlinked});
             merged_.regions.push_back(static_cast<std::uint32_t>(mesh.regions[c]));
         }
         for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
@@ -85,7 +131,7 @@ class Gluer {
     }
 
     Merged finish() {
-        merged_.mesh = TetMesh::from_cells(std::move(points_), std::move(cells_));
+        merged_.mesh = TetMesh::from_linked_cells(std::move(points_), std::move(cells_));
         for (const NamedTriple& face : faces_) {
             const auto& [a, b, c] = face.vertices;
             HalffaceHandle found =
@@ -105,6 +151,16 @@ class Gluer {
     }
 
   private:
+    /// By vertex: whether it is on the surface or a cell that is not kept has it, so that other parts may.
+    static std::vector<std::uint8_t> meeting_vertices(const Operand& operand,
+                                                      const std::vector<std::uint8_t>& kept) {
+        std::vector<std::uint8_t> meets(operand.mesh.n_vertices());
+        std::fill_n(meets.begin(), std::min(meets.size(), operand.surface.points.size()), 1);
+        for (std::uint32_t c = 0; c < kept.size(); ++c)
+            if (!kept[c])
+                for (const VertexHandle v : operand.mesh.cell_vertices(CellHandle(c))) meets[v.idx()] = 1;
+        return meets;
+    }
     std::uint32_t add_point(const Eigen::Vector3d& p) {
         points_.push_back(p);
         return static_cast<std::uint32_t>(points_.size() - 1);
@@ -117,7 +173,7 @@ class Gluer {
 
     Merged merged_;
     std::vector<Eigen::Vector3d> points_;
-    std::vector<std::array<std::uint32_t, 4>> cells_;
+    volmesh::Column<TetMesh::Cell> cells_;
     std::vector<NamedTriple> faces_;
     PointIndex places_;
 };
@@ -195,7 +251,7 @@ FacetComplex bounds_of_new_cells(const FacetComplex& zone) {
 Merged glue(std::span<const Operand> operands, const KeptCells& kept, const FacetComplex& zone,
             const FacetComplex& bounds, const ComplexMesh& new_cells, std::uint32_t shell_surface) {
     Gluer gluer;
-    for (std::uint32_t i = 0; i < operands.size(); ++i) gluer.add_kept(i, operands[i].mesh, kept[i]);
+    for (std::uint32_t i = 0; i < operands.size(); ++i) gluer.add_kept(i, operands[i], kept[i]);
     gluer.add_new(new_cells, bounds, shell_surface);
     gluer.add_kept_interface(zone);
     return gluer.finish();

@@ -1,7 +1,6 @@
 #include "modeler/merge_regions.hh"
 
 #include <algorithm>
-#include <map>
 
 #include <fmt/core.h>
 
@@ -48,11 +47,15 @@ class Taker {
     /// Adds them, and returns the tree of them all.
     CsgTree take() {
         std::vector<std::vector<CellHandle>> regions;
-        std::map<volmesh::CombinationId, std::size_t> region_of;
+        std::vector<std::uint32_t> region_of;  // by combination of sets
         for (const CellHandle c : mesh_.cells()) {
-            const auto [place, is_new] = region_of.emplace(mesh_.combination(c), regions.size());
-            if (is_new) regions.emplace_back();
-            regions[place->second].push_back(c);
+            const volmesh::CombinationId sets = mesh_.combination(c);
+            if (sets >= region_of.size()) region_of.resize(sets + 1, unnumbered);
+            if (region_of[sets] == unnumbered) {
+                region_of[sets] = static_cast<std::uint32_t>(regions.size());
+                regions.emplace_back();
+            }
+            regions[region_of[sets]].push_back(c);
         }
         CsgTree tree{Operation::fragment, 0, {}};
         for (auto& cells : regions) {
@@ -84,14 +87,8 @@ class Taker {
                 }
         for (const VertexHandle v : region.vertices) operand.surface.points.push_back(mesh_.point(v));
 
-        std::vector<std::array<std::uint32_t, 4>> corners;
-        for (const CellHandle c : region.cells) {
-            const auto v = mesh_.cell_vertices(c);
-            corners.push_back({number(v[0]), number(v[1]), number(v[2]), number(v[3])});
-        }
-        std::vector<Eigen::Vector3d> points;
-        for (const VertexHandle v : region.vertices) points.push_back(mesh_.point(v));
-        operand.mesh = TetMesh::from_cells(std::move(points), std::move(corners));
+        for (const CellHandle c : region.cells) std::ranges::for_each(mesh_.cell_vertices(c), number);
+        operand.mesh = mesh_.taken(region.vertices, region.cells);
         operand.name = fmt::format("mesh {}", number_ + 1);
         operand.size = size_ > 0 ? size_ : mean_edge(operand.surface);
         result_.operands.push_back(std::move(operand));

@@ -23,11 +23,18 @@ class SetCarrier {
         : meshes_(meshes), regions_(regions), merged_(merged) {}
 
     void carry_cells() {
+        std::vector<std::vector<CellHandle>> cells_of(regions_.regions.size());
+        std::vector<std::uint32_t> order;  // of regions, as they first appear
         for (const CellHandle c : merged_.mesh.cells()) {
-            const MeshRegion& region = regions_.regions[merged_.regions[c.idx()]];
+            const std::uint32_t region = merged_.regions[c.idx()];
+            if (cells_of[region].empty()) order.push_back(region);
+            cells_of[region].push_back(c);
+        }
+        for (const std::uint32_t number : order) {
+            const MeshRegion& region = regions_.regions[number];
             const TetMesh& from = meshes_[region.mesh];
             for (const SetHandle set : from.sets_of(from.combination(region.cells.front())))
-                merged_.mesh.insert(same_set(from, set), c);
+                merged_.mesh.insert(same_set(from, set), cells_of[number]);
         }
     }
 

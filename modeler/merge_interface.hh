@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+
+#include <Eigen/Core>
+
+#include "modeler/facet_complex.hh"
+#include "modeler/point_index.hh"
+#include "modeler/triple.hh"
+#include "volmesh/tet_mesh.hh"
+
+namespace maille::modeler {
+
+/// The facets of an interface, to be found by the points of a triangle.
+class InterfaceTable {
+  public:
+    explicit InterfaceTable(const FacetComplex& interface);
+    /// The interface's points at the triangle's corners; nothing where one is none.
+    std::optional<Triple> vertices(const std::array<Eigen::Vector3d, 3>& triangle) const;
+    /// The facet with these corners, whichever way it turns.
+    std::optional<std::uint32_t> facet(const std::array<Eigen::Vector3d, 3>& triangle) const;
+
+  private:
+    PointIndex points_;
+    std::unordered_map<Triple, std::uint32_t, TripleHash> facets_;
+};
+
+/// Where a face's vertices are, counter-clockwise seen from outside its cell.
+std::array<Eigen::Vector3d, 3> face_points(const volmesh::TetMesh& mesh, volmesh::HalffaceHandle face);
+
+/// Where a facet's vertices are.
+std::array<Eigen::Vector3d, 3> facet_points(const FacetComplex& complex, std::uint32_t facet);
+
+}  // namespace maille::modeler
