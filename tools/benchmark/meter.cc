@@ -1,14 +1,11 @@
 #include "tools/benchmark/meter.hh"
 
 #include <chrono>
-#include <cstdint>
 #include <fstream>
 #include <string>
 
 #include <malloc.h>
 #include <sys/resource.h>
-
-#include "volmesh/column.hh"
 
 namespace maille::benchmark {
 namespace {
@@ -51,10 +48,6 @@ std::size_t peak_bytes() {
 void forget_peak() {
     malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << 5;
-}
-
-void lay_out_memory(std::size_t bytes) {
-    volmesh::Column<std::uint8_t>().assign(bytes, 1);
 }
 
 }  // namespace maille::benchmark

@@ -20,9 +20,5 @@ std::size_t resident_bytes();
 std::size_t peak_bytes();
 /// Gives memory that is free back to the system, and measures the peak from here on.
 void forget_peak();
-/// Has the machine lay memory behind as many bytes, and frees them. The host of a virtual machine looks for
-/// memory when a page is first touched, which takes a second or two for a gigabyte: what is measured next
-/// finds it there.
-void lay_out_memory(std::size_t bytes);
 
 }  // namespace maille::benchmark

@@ -65,10 +65,9 @@ double worst_radius_ratio(const volmesh::TetMesh& mesh) {
     return worst;
 }
 
-Figures measure(const CellSoup& soup, const RefinementCase& what, std::size_t memory) {
+Figures measure(const CellSoup& soup, const RefinementCase& what) {
     Figures figures;
     const refine::SizeField size = size_of(what);
-    lay_out_memory(memory);
     forget_peak();
     const std::size_t before = resident_bytes();
     volmesh::TetMesh mesh = soup.mesh();
@@ -109,8 +108,7 @@ void print_refinement_header() {
 void run(const CellSoup& soup, const RefinementCase& what) {
     std::vector<Figures> runs;
     for (int i = 0; i < what.repeats; ++i) {
-        // Some more than the mesh takes at its peak, as arrays come and go.
-        runs.push_back(measure(soup, what, runs.empty() ? 0 : 3 * runs[0].peak / 2));
+        runs.push_back(measure(soup, what));
         if (runs[i].digest != runs[0].digest) throw std::runtime_error("the same input gave another mesh");
     }
     const double millions = runs[0].new_cells / 1e6;

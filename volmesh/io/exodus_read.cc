@@ -12,6 +12,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -297,14 +298,23 @@ bool is_hdf5(const Path& path) {
     return InputFile(path).text().starts_with("\x89HDF");
 }
 
-/// HDF5's library may crash on a damaged file. So another process reads it first: what that one survives,
-/// this one does, which reads the same.
+/// Far more than any sound file takes.
+void limit_processor_time(std::uintmax_t file_bytes) {
+    const rlim_t seconds = 20 + file_bytes / 1'000'000;
+    const rlimit limit{seconds, seconds};
+    ::setrlimit(RLIMIT_CPU, &limit);
+}
+
+/// HDF5's library may crash on a damaged file, or never end. So another process reads it first: what that one
+/// survives, this one does, which reads the same.
 void read_in_another_process(const Path& path) {
+    const std::uintmax_t file_bytes = std::filesystem::file_size(path);
     const pid_t child = ::fork();
     if (child < 0)
         throw InputError(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
     if (child == 0) {
         for (int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
+        limit_processor_time(file_bytes);
         if (const int nowhere = ::open("/dev/null", O_WRONLY); nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
         try {
             ExodusReader(path).read();
