@@ -6,9 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
+#include "quality/candidates.hh"
 #include "quality/collapse_trial.hh"
 #include "volmesh/cell_table.hh"
 #include "volmesh/collapse.hh"
@@ -64,22 +62,13 @@ std::optional<Candidate> best_collapse(const TetMesh& mesh, const std::vector<Sh
 std::vector<Candidate> candidates(const TetMesh& mesh, const std::vector<Shape>& shapes, double mean,
                                   const SizeLimit& limit, const std::vector<std::uint8_t>& is_free) {
     const auto cells_of = volmesh::vertex_cells(mesh);
-    constexpr std::uint32_t block = 256;
-    std::vector<std::vector<Candidate>> found((mesh.n_vertices() + block - 1) / block);
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
-        const auto begin = static_cast<std::uint32_t>(b) * block;
-        const std::uint32_t end = std::min(begin + block, mesh.n_vertices());
-        for (std::uint32_t i = begin; i < end; ++i) {
+    return sorted_candidates<Candidate>(
+        mesh.n_vertices(), [&](std::uint32_t i, std::vector<Candidate>& found) {
             const VertexHandle v(i);
-            if (is_free[i] == 0 || mesh.is_deleted(v)) continue;
+            if (is_free[i] == 0 || mesh.is_deleted(v)) return;
             if (const auto best = best_collapse(mesh, shapes, mean, limit, v, cells_of[v]))
-                found[b].push_back(*best);
-        }
-    });
-    std::vector<Candidate> all;
-    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-    std::ranges::sort(all, {}, &Candidate::order);
-    return all;
+                found.push_back(*best);
+        });
 }
 
 }  // namespace

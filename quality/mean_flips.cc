@@ -4,9 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
+#include "quality/candidates.hh"
 #include "volmesh/edge_removal.hh"
 #include "volmesh/strata.hh"
 
@@ -139,28 +137,19 @@ struct Candidate {
 };
 
 std::vector<Candidate> candidates(const TetMesh& mesh, const std::vector<Shape>& shapes, double mean) {
-    constexpr std::uint32_t block = 1024;
-    std::vector<std::vector<Candidate>> found((mesh.n_cells() + block - 1) / block);
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t b) {
-        const auto begin = static_cast<std::uint32_t>(b) * block;
-        const std::uint32_t end = std::min(begin + block, mesh.n_cells());
-        for (std::uint32_t i = begin; i < end; ++i) {
-            if (!(shapes[i].beta < mean) || mesh.is_deleted(CellHandle(i))) continue;
-            const unsigned worse = worse_neighbors(mesh, shapes, CellHandle(i));
-            for (int e = 0; e < 6; ++e) {
-                const auto [k, l] = volmesh::tet::edge_vertices[volmesh::tet::opposite_edge(e)];
-                if ((worse >> k & 1) != 0 || (worse >> l & 1) != 0) continue;
-                const auto ring = ring_of_worst(mesh, shapes, CellHandle(i), e);
-                if (!ring || !is_in_one_region(mesh, *ring)) continue;
-                const double gain = BestFilling(mesh, *ring, shapes, mean).gain();
-                if (gain > least_gain) found[b].push_back({gain, CellHandle(i), e});
-            }
+    return sorted_candidates<Candidate>(mesh.n_cells(), [&](std::uint32_t i, std::vector<Candidate>& found) {
+        const CellHandle c(i);
+        if (!(shapes[i].beta < mean) || mesh.is_deleted(c)) return;
+        const unsigned worse = worse_neighbors(mesh, shapes, c);
+        for (int e = 0; e < 6; ++e) {
+            const auto [k, l] = volmesh::tet::edge_vertices[volmesh::tet::opposite_edge(e)];
+            if ((worse >> k & 1) != 0 || (worse >> l & 1) != 0) continue;
+            const auto ring = ring_of_worst(mesh, shapes, c, e);
+            if (!ring || !is_in_one_region(mesh, *ring)) continue;
+            const double gain = BestFilling(mesh, *ring, shapes, mean).gain();
+            if (gain > least_gain) found.push_back({gain, c, e});
         }
     });
-    std::vector<Candidate> all;
-    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-    std::ranges::sort(all, {}, &Candidate::order);
-    return all;
 }
 
 bool keeps_size(const TetMesh& mesh, const EdgeRing& ring, const std::vector<RingTriangle>& triangles,
