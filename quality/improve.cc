@@ -27,15 +27,14 @@ std::vector<Shape> shapes_of(const TetMesh& mesh) {
     return shapes;
 }
 
-/// Whether the mesh is large and far from its aim: many walks are to come, and gain more from cells that are
+/// Whether the mesh is large and below its aim: many walks are to come, and gain more from cells that are
 /// near in memory than it costs to bring them there.
 bool is_worth_renumbering(const std::vector<Shape>& shapes, const ImproveOptions& options) {
     constexpr std::size_t many_cells = 50'000;
-    constexpr double far = 0.05;
     if (!options.may_change_cells || options.mean_sweeps == 0 || shapes.size() < many_cells) return false;
     double sum = 0;
     for (const Shape& shape : shapes) sum += shape.beta;
-    return sum / static_cast<double>(shapes.size()) < options.good_mean - far;
+    return sum / static_cast<double>(shapes.size()) < options.good_mean;
 }
 
 }  // namespace

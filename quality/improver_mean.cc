@@ -27,7 +27,9 @@ void Improver::raise_mean() {
         const double before = mean;
         if (mean < options_.good_mean && options_.may_change_cells) {
             result_.edge_removals += flip_for_mean(mesh_, shapes_, mean, limit_);
-            result_.collapses += collapse_for_mean(mesh_, shapes_, mean_beta(), limit_, is_free);
+            mean = mean_beta();
+            if (mean < options_.good_mean)
+                result_.collapses += collapse_for_mean(mesh_, shapes_, mean, limit_, is_free);
         }
         result_.moves += move_for_mean(mesh_, shapes_, limit_, is_free);
         mean = mean_beta();
