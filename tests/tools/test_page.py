@@ -238,7 +238,7 @@ class Page(MailleCase):
         return int(self.browser.text("[data-fact=number]").replace(",", "")), self.browser.text("[data-fact=in]")
 
     def test_part_of_a_large_mesh(self):
-        tets, report = self.open("--html-cells", 14000, size=0.15)
+        tets, report = self.open("--html-cells", 18000, size=0.15)
         carried = int(re.search(r"carries ([\d,]+) of", self.browser.text("#left-out"))[1].replace(",", ""))
         self.assertLess(carried, report["cells"] / 2)
         self.assertEqual(self.faces_drawn(), tets.shell(np.full(len(tets.cells), True)))
