@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <iterator>
 
-#include <fmt/core.h>
-
-#include "modeler/build_copies.hh"
+#include "modeler/build_points.hh"
+#include "modeler/build_primitives.hh"
 #include "modeler/build_projection.hh"
 #include "modeler/build_size.hh"
-#include "modeler/closed_surface.hh"
 #include "modeler/merge_operand.hh"
-#include "modeler/parallel.hh"
 #include "modeler/phase_timer.hh"
 #include "modeler/projector_touch.hh"
-#include "modeler/shared_surface.hh"
-#include "modeler/tessellate.hh"
-#include "modeler/tetrahedralize.hh"
 #include "volmesh/error.hh"
 
 namespace maille::modeler {
@@ -25,92 +19,6 @@ using volmesh::CellHandle;
 using volmesh::EntityKind;
 using volmesh::SetHandle;
 using volmesh::TetMesh;
-
-/// Of all primitives, also of what is cut off.
-double diagonal(const Model& model) {
-    Eigen::AlignedBox3d box;
-    for (const Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
-    return box.diagonal().norm();
-}
-
-double default_size(const Model& model) {
-    const Eigen::AlignedBox3d box = bounding_box(model);
-    return (box.isEmpty() ? diagonal(model) : box.diagonal().norm()) / 20;
-}
-
-std::vector<double> sizes_of_primitives(const Model& model, const BuildOptions& options) {
-    if (options.size < 0) throw InputError(fmt::format("the size has to be positive, not {}", options.size));
-    const double general = options.size > 0 ? options.size : default_size(model);
-    std::vector<double> sizes;
-    for (const Primitive& primitive : model.primitives)
-        sizes.push_back(primitive.size > 0 ? primitive.size : general);
-    return sizes;
-}
-
-/// Marks the primitives that can own cells.
-void mark_owners(const CsgTree& tree, std::vector<std::uint8_t>& marks) {
-    const bool first_only =
-        tree.operation == Operation::intersection || tree.operation == Operation::difference;
-    if (tree.operation == Operation::leaf) marks[tree.primitive] = 1;
-    for (const CsgTree& child : tree.children) {
-        mark_owners(child, marks);
-        if (first_only) return;
-    }
-}
-
-/// The number of each primitive's first surface.
-std::vector<std::uint32_t> first_surfaces(const Model& model) {
-    std::vector<std::uint32_t> first(model.primitives.size());
-    const std::vector<ModelSurface> numbered = surfaces(model);
-    for (std::size_t s = numbered.size(); s-- > 0;)
-        first[numbered[s].primitive] = static_cast<std::uint32_t>(s);
-    return first;
-}
-
-/// Primitives that differ in place only are meshed once.
-std::vector<Operand> mesh_primitives(const Model& model, const BuildOptions& options, BuildReport& report) {
-    const std::size_t n = model.primitives.size();
-    std::vector<double> sizes = sizes_of_primitives(model, options);
-    const auto shared = find_shared_surfaces(model.primitives, sizes, options.chord_tolerance);
-    const std::vector<std::uint32_t> first = first_surfaces(model);
-    std::vector<std::uint8_t> may_own(n);
-    mark_owners(model.tree, may_own);
-    const std::vector<std::size_t> original = first_alike(model.primitives, sizes, shared);
-    for (std::size_t i = 0; i < n; ++i) may_own[original[i]] |= may_own[i];
-    std::vector<Operand> operands(n);
-    std::vector<std::vector<std::string>> warnings_of(n);
-    parallel_for(n, options.threads, [&](std::size_t i) {
-        if (original[i] != i) return;
-        const Primitive& primitive = model.primitives[i];
-        Operand& operand = operands[i];
-        operand.name = primitive.name;
-        operand.size = sizes[i];
-        const volmesh::TriMesh surface = tessellate(primitive, {.size = sizes[i],
-                                                                .chord_tolerance = options.chord_tolerance,
-                                                                .is_draft = !may_own[i],
-                                                                .shared = shared[i]});
-        operand.surface = closed_surface(surface, first[i]);
-        if (!may_own[i] || !options.keep_cells) return;
-        try {
-            operand.mesh =
-                tetrahedralize(surface, sizes[i], {.time_limit = options.time_limit, .name = primitive.name},
-                               &warnings_of[i]);
-        } catch (const InputError& error) {
-            // It can still be meshed together with the others.
-            warnings_of[i].push_back(error.what());
-        }
-    });
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t j = original[i];
-        if (j == i) continue;
-        operands[i] =
-            moved_operand(operands[j], model.primitives[j], model.primitives[i], first[j], first[i]);
-        if (!may_own[i]) operands[i].mesh = {};
-        ++report.moved_primitives;
-    }
-    for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(report.warnings));
-    return operands;
-}
 
 RemeshGeometry remesh_geometry(const Model& model, std::span<const Operand> operands) {
     std::vector<double> sizes;
@@ -190,28 +98,82 @@ void name_faces(TetMesh& mesh, const std::vector<std::uint32_t>& regions,
             mesh.insert(sets[face.surface][is_inner(face)], face.face);
 }
 
+/// A mesh of the model, and what is to be told of it.
+struct Attempt {
+    Merged merged;
+    quality::ProjectionResult projection;
+    std::vector<std::string> warnings;
+};
+
+void add_mesh(Attempt& result, const Model& model, const BuildOptions& options,
+              std::span<const Operand> operands) {
+    const auto n_surfaces = static_cast<std::uint32_t>(surfaces(model).size());
+    result.merged =
+        merge_operands(operands, model.tree, remesh_geometry(model, operands), n_surfaces,
+                       {.keep_cells = options.keep_cells, .time_limit = options.time_limit}, result.warnings);
+    name_cells(result.merged.mesh, result.merged.regions, model);
+    name_faces(result.merged.mesh, result.merged.regions, result.merged.faces, model);
+    result.projection = project_new_vertices(result.merged, projector(model));
+}
+
+/// Adds the new points to those that there are; returns the primitives that have got any.
+std::vector<std::size_t> append(std::vector<std::vector<FacePoint>>& points,
+                                const std::vector<std::vector<FacePoint>>& more) {
+    std::vector<std::size_t> changed;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (more[i].empty()) continue;
+        points[i].insert(points[i].end(), more[i].begin(), more[i].end());
+        changed.push_back(i);
+    }
+    return changed;
+}
+
+/// Where vertices are short of their surfaces, tries again with triangles that are on these there, some times
+/// or until none is. A further attempt takes as long as the first: large models have none.
+void try_again(Attempt& best, const Model& model, const BuildOptions& options, const PrimitiveMesher& mesher,
+               std::vector<Operand>& operands) {
+    constexpr int most_times = 4;
+    constexpr std::size_t most_faces = 100'000;
+    if (best.merged.faces.size() > most_faces) return;
+    const auto n_short = [](const Attempt& attempt) { return attempt.projection.short_of_target.size(); };
+    std::vector<std::vector<FacePoint>> points(operands.size());
+    auto more = points_to_meet(model, best.merged, best.projection.short_of_target);
+    for (int i = 0; i < most_times && n_short(best) > 0; ++i) {
+        const auto changed = append(points, more);
+        if (changed.empty()) return;
+        try {
+            Attempt next;
+            mesher.mesh_again(operands, changed, points, next.warnings);
+            add_mesh(next, model, options, operands);
+            more = points_to_meet(model, next.merged, next.projection.short_of_target);
+            if (n_short(next) < n_short(best)) best = std::move(next);
+        } catch (const InputError&) {
+            return;  // what there is already is as good as it gets
+        }
+    }
+}
+
 }  // namespace
 
 TetMesh build(const Model& model, const BuildOptions& options, BuildReport* report) {
     BuildReport unwanted;
     BuildReport& told = report != nullptr ? *report : unwanted;
     if (model.primitives.empty()) throw InputError("the model is empty: it has no solids");
+    const PrimitiveMesher mesher(model, options);
     std::vector<Operand> operands;
     {
         const PhaseTimer timer(told.primitives);
-        operands = mesh_primitives(model, options, told);
+        operands = mesher.mesh(told);
     }
     const PhaseTimer timer(told.merge);
-    const auto n_surfaces = static_cast<std::uint32_t>(surfaces(model).size());
-    Merged merged =
-        merge_operands(operands, model.tree, remesh_geometry(model, operands), n_surfaces,
-                       {.keep_cells = options.keep_cells, .time_limit = options.time_limit}, told.warnings);
-    told.kept_cells = merged.kept_cells.size();
-    told.new_cells = merged.mesh.n_cells() - told.kept_cells;
-    name_cells(merged.mesh, merged.regions, model);
-    name_faces(merged.mesh, merged.regions, merged.faces, model);
-    told.projection = project_new_vertices(merged, projector(model));
-    return std::move(merged.mesh);
+    Attempt best;
+    add_mesh(best, model, options, operands);
+    try_again(best, model, options, mesher, operands);
+    std::ranges::move(best.warnings, std::back_inserter(told.warnings));
+    told.projection = std::move(best.projection);
+    told.kept_cells = best.merged.kept_cells.size();
+    told.new_cells = best.merged.mesh.n_cells() - told.kept_cells;
+    return std::move(best.merged.mesh);
 }
 
 }  // namespace maille::modeler

@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
+#include "modeler/build.hh"
 #include "modeler/build_projection.hh"
 #include "modeler/model.hh"
 #include "modeler/shapes.hh"
+#include "tests/modeler/name_checks.hh"
 #include "tests/refine/meshes.hh"
 #include "volmesh/overlap.hh"
 #include "volmesh/validate.hh"
@@ -25,10 +29,10 @@ class Bricks {
 
     void add(const Vector3d& low, const Vector3d& high, const Vector3d& low_of_cube,
              const Vector3d& high_of_cube) {
-        const test::Soup brick = test::kuhn_cube(n_);
+        const ::test::Soup brick = ::test::kuhn_cube(n_);
         const auto first = static_cast<std::uint32_t>(soup_.points.size());
         for (const auto& p : brick.points) soup_.points.push_back(low + p.cwiseProduct(high - low));
-        for (test::Tet t : brick.tets) {
+        for (::test::Tet t : brick.tets) {
             for (auto& v : t) v += first;
             soup_.tets.push_back(t);
         }
@@ -68,7 +72,7 @@ class Bricks {
 
   private:
     int n_;
-    test::Soup soup_;
+    ::test::Soup soup_;
     std::vector<std::uint32_t> ends_;  ///< of each brick's tetrahedra
     std::vector<Eigen::AlignedBox3d> boxes_;
     Model model_;
@@ -126,4 +130,33 @@ TEST_CASE("walls do not cross each other to reach their surfaces, and the vertic
         CHECK(*left.distance == doctest::Approx(0.1));
     }
     CHECK(distance_from(merged, bricks.model(), 7) < 1e-12);  // cube1/x+: nothing is in its way
+}
+
+TEST_CASE("corners that flat triangles would get wrong are on all their surfaces") {
+    std::string text;
+    std::vector<Vector3d> corners;
+    SUBCASE("an edge within a sphere by less than the chords' error") {
+        text = "difference() { sphere(r = 1, $fn = 32); translate([0.01, -2, 0.998]) cube([2, 4, 2]); }";
+        const double half = std::sqrt(1 - 0.01 * 0.01 - 0.998 * 0.998);
+        for (const double y : {-half, half}) corners.emplace_back(0.01, y, 0.998);
+    }
+    SUBCASE("a prism in a cylinder of the same radius") {
+        text =
+            "difference() { cylinder(h = 1, r1 = 1, r2 = 1, $fn = 32); "
+            "translate([0, 0, 0.5]) prism(n = 5, r = 1, h = 1); }";
+        for (int k = 0; k < 5; ++k) {
+            const double angle = 2 * std::numbers::pi * k / 5;
+            for (const double z : {0.5, 1.0}) corners.emplace_back(std::cos(angle), std::sin(angle), z);
+        }
+    }
+    const Model model = parse_model(text, "part.csg", Facets::round);
+    BuildReport report;
+    const auto mesh = build(model, {}, &report);
+    CHECK(volmesh::validate(mesh).ok());
+    CHECK(report.projection.short_of_target.empty());
+    const auto figures = modeler::test::check_names(mesh, model);
+    CHECK(figures.nameless + figures.ambiguous == 0);
+    CHECK(figures.farthest < 1e-12);
+    for (const Vector3d& corner : corners)
+        CHECK(std::ranges::any_of(mesh.points(), [&](const auto& p) { return (p - corner).norm() < 1e-9; }));
 }

@@ -199,6 +199,7 @@ void check_surfaces(const TetMesh& mesh, const Model& model, const BuildReport& 
 TEST_CASE("random trees of solids are filled as the tree says, everywhere") {
     const int count = number_from("MAILLE_TREES", 30), first = number_from("MAILLE_TREES_SEED", 1);
     int refused = 0;
+    std::size_t n_short = 0;
     for (int seed = first; seed < first + count; ++seed) {
         CAPTURE(seed);
         Generator generator(static_cast<unsigned>(seed));
@@ -219,6 +220,9 @@ TEST_CASE("random trees of solids are filled as the tree says, everywhere") {
         check_places(mesh, model, generator);
         check_volume(mesh, model, static_cast<unsigned>(seed));
         check_surfaces(mesh, model, report);
+        n_short += report.projection.short_of_target.size();
     }
     CHECK(refused <= count / 200);
+    if (n_short > 0) MESSAGE(n_short << " vertices are short of their surfaces, and named");
+    CHECK(n_short <= static_cast<std::size_t>(count) / 10);
 }

@@ -1,0 +1,124 @@
+#include "modeler/build_primitives.hh"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/core.h>
+
+#include "modeler/build_copies.hh"
+#include "modeler/build_size.hh"
+#include "modeler/closed_surface.hh"
+#include "modeler/parallel.hh"
+#include "modeler/tessellate.hh"
+#include "modeler/tetrahedralize.hh"
+#include "volmesh/error.hh"
+
+namespace maille::modeler {
+namespace {
+
+double default_size(const Model& model) {
+    const Eigen::AlignedBox3d box = bounding_box(model);
+    return (box.isEmpty() ? diagonal(model) : box.diagonal().norm()) / 20;
+}
+
+std::vector<double> sizes_of_primitives(const Model& model, const BuildOptions& options) {
+    if (options.size < 0) throw InputError(fmt::format("the size has to be positive, not {}", options.size));
+    const double general = options.size > 0 ? options.size : default_size(model);
+    std::vector<double> sizes;
+    for (const Primitive& primitive : model.primitives)
+        sizes.push_back(primitive.size > 0 ? primitive.size : general);
+    return sizes;
+}
+
+/// The number of each primitive's first surface.
+std::vector<std::uint32_t> first_surfaces(const Model& model) {
+    std::vector<std::uint32_t> first(model.primitives.size());
+    const std::vector<ModelSurface> numbered = surfaces(model);
+    for (std::size_t s = numbered.size(); s-- > 0;)
+        first[numbered[s].primitive] = static_cast<std::uint32_t>(s);
+    return first;
+}
+
+/// Marks the primitives that can own cells.
+void mark_owners(const CsgTree& tree, std::vector<std::uint8_t>& marks) {
+    const bool first_only =
+        tree.operation == Operation::intersection || tree.operation == Operation::difference;
+    if (tree.operation == Operation::leaf) marks[tree.primitive] = 1;
+    for (const CsgTree& child : tree.children) {
+        mark_owners(child, marks);
+        if (first_only) return;
+    }
+}
+
+}  // namespace
+
+double diagonal(const Model& model) {
+    Eigen::AlignedBox3d box;
+    for (const Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
+    return box.diagonal().norm();
+}
+
+PrimitiveMesher::PrimitiveMesher(const Model& model, const BuildOptions& options)
+    : model_(model),
+      options_(options),
+      sizes_(sizes_of_primitives(model, options)),
+      shared_(find_shared_surfaces(model.primitives, sizes_, options.chord_tolerance)),
+      first_(first_surfaces(model)),
+      may_own_(model.primitives.size()) {
+    mark_owners(model.tree, may_own_);
+}
+
+Operand PrimitiveMesher::operand(std::size_t i, std::span<const FacePoint> points, bool with_cells,
+                                 std::vector<std::string>& warnings) const {
+    const Primitive& primitive = model_.primitives[i];
+    volmesh::TriMesh surface = tessellate(primitive, {.size = sizes_[i],
+                                                      .chord_tolerance = options_.chord_tolerance,
+                                                      .is_draft = !with_cells,
+                                                      .shared = shared_[i]});
+    insert_points(surface, *primitive.shape, points);
+    Operand operand{primitive.name, sizes_[i], closed_surface(surface, first_[i]), {}};
+    if (!with_cells || !options_.keep_cells) return operand;
+    try {
+        operand.mesh = tetrahedralize(surface, sizes_[i],
+                                      {.time_limit = options_.time_limit, .name = primitive.name}, &warnings);
+    } catch (const InputError& error) {
+        // It can still be meshed together with the others.
+        warnings.push_back(error.what());
+    }
+    return operand;
+}
+
+std::vector<Operand> PrimitiveMesher::mesh(BuildReport& report) const {
+    const std::size_t n = model_.primitives.size();
+    const std::vector<std::size_t> original = first_alike(model_.primitives, sizes_, shared_);
+    std::vector<std::uint8_t> with_cells = may_own_;
+    for (std::size_t i = 0; i < n; ++i) with_cells[original[i]] |= may_own_[i];
+    std::vector<Operand> operands(n);
+    std::vector<std::vector<std::string>> warnings_of(n);
+    parallel_for(n, options_.threads, [&](std::size_t i) {
+        if (original[i] == i) operands[i] = operand(i, {}, with_cells[i], warnings_of[i]);
+    });
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t j = original[i];
+        if (j == i) continue;
+        operands[i] =
+            moved_operand(operands[j], model_.primitives[j], model_.primitives[i], first_[j], first_[i]);
+        if (!with_cells[i]) operands[i].mesh = {};
+        ++report.moved_primitives;
+    }
+    for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(report.warnings));
+    return operands;
+}
+
+void PrimitiveMesher::mesh_again(std::vector<Operand>& operands, std::span<const std::size_t> which,
+                                 std::span<const std::vector<FacePoint>> points,
+                                 std::vector<std::string>& warnings) const {
+    std::vector<std::vector<std::string>> warnings_of(which.size());
+    parallel_for(which.size(), options_.threads, [&](std::size_t k) {
+        const std::size_t i = which[k];
+        operands[i] = operand(i, points[i], may_own_[i], warnings_of[k]);
+    });
+    for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(warnings));
+}
+
+}  // namespace maille::modeler
