@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 """Bad input: one clear line on stderr, exit status 2, no output file, no crash."""
 
+import math
+import random
+import re
 import unittest
 
 from maille_case import MailleCase
@@ -55,6 +58,29 @@ class BadInput(MailleCase):
         self.refuse("mesh", self.model(text), "--size", "0.5", "-o", "out.vtu", says=["empty"])
         self.refuse("mesh", self.model("difference() { cube(1); translate([-1, -1, -1]) cube(3); }"), "--size", "0.5",
                     "-o", "out.vtu", says=["empty"])
+
+    def test_too_much_work(self):
+        """Thousands of needles through one place: each of their triangles is near every other."""
+        generator = random.Random(1)
+        needles = []
+        for _ in range(2600):
+            x, y, z = (generator.gauss(0, 1) for _ in range(3))
+            length = math.sqrt(x * x + y * y + z * z) / 10
+            tip = [x / length, y / length, z / length]
+            beside = [[generator.gauss(0, 0.1) for _ in range(3)] for _ in range(2)]
+            corners = [tip, [-t for t in tip], [0.9 * t + b for t, b in zip(tip, beside[0])],
+                       [b - 0.9 * t for t, b in zip(tip, beside[1])]]
+            needles.append(f"tetrahedron({corners});")
+        block = "translate([-20, -20, -20]) cube(40);"
+        model = self.model("difference() {" + block + "\n".join(needles) + "}")
+        stderr = self.refuse("mesh", model, "--size", "40", "-o", "out.vtu", says=["it would hardly end"])
+        told = re.search(r"the surfaces of (\w+) and (\w+) near \((.*), (.*), (.*)\) are among so many", stderr)
+        self.assertIsNotNone(told, stderr)
+        self.assertNotEqual(told[1], told[2])
+        for name in told.group(1, 2):
+            self.assertRegex(name, r"^tetrahedron\d+$")
+            self.assertLessEqual(int(name[len("tetrahedron"):]), len(needles))
+        self.assertLess(math.hypot(*map(float, told.group(3, 4, 5))), 11)
 
     def test_bad_sizes(self):
         model = self.model(CUBE)
