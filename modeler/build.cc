@@ -143,7 +143,7 @@ void try_again(Attempt& best, const Model& model, const BuildOptions& options, c
         if (changed.empty()) return;
         try {
             Attempt next;
-            mesher.mesh_again(operands, changed, points, next.warnings);
+            if (!mesher.mesh_again(operands, changed, points, next.warnings)) return;
             add_mesh(next, model, options, operands);
             more = points_to_meet(model, next.merged, next.projection.short_of_target);
             if (n_short(next) < n_short(best)) best = std::move(next);

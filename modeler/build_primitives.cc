@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "modeler/arrange_self_intersection.hh"
 #include "modeler/build_copies.hh"
 #include "modeler/build_size.hh"
 #include "modeler/closed_surface.hh"
@@ -48,6 +49,12 @@ void mark_owners(const CsgTree& tree, std::vector<std::uint8_t>& marks) {
         mark_owners(child, marks);
         if (first_only) return;
     }
+}
+
+bool crosses_itself(const ClosedSurface& surface) {
+    FacetComplex complex{surface.points, {}};
+    for (const auto& triangle : surface.triangles) complex.facets.push_back({triangle, 0, outside, 0});
+    return find_self_intersection(complex).has_value();
 }
 
 }  // namespace
@@ -110,15 +117,18 @@ std::vector<Operand> PrimitiveMesher::mesh(BuildReport& report) const {
     return operands;
 }
 
-void PrimitiveMesher::mesh_again(std::vector<Operand>& operands, std::span<const std::size_t> which,
+bool PrimitiveMesher::mesh_again(std::vector<Operand>& operands, std::span<const std::size_t> which,
                                  std::span<const std::vector<FacePoint>> points,
                                  std::vector<std::string>& warnings) const {
     std::vector<std::vector<std::string>> warnings_of(which.size());
+    std::vector<std::uint8_t> is_fit(which.size());
     parallel_for(which.size(), options_.threads, [&](std::size_t k) {
         const std::size_t i = which[k];
         operands[i] = operand(i, points[i], may_own_[i], warnings_of[k]);
+        is_fit[k] = !crosses_itself(operands[i].surface);
     });
     for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(warnings));
+    return std::ranges::count(is_fit, 0) == 0;
 }
 
 }  // namespace maille::modeler

@@ -24,8 +24,9 @@ class PrimitiveMesher {
 
     /// All of them; those that differ in place only are meshed once.
     std::vector<Operand> mesh(BuildReport& report) const;
-    /// Some again, with points, by primitive, as vertices of their surfaces.
-    void mesh_again(std::vector<Operand>& operands, std::span<const std::size_t> which,
+    /// Some again, with points, by primitive, as vertices of their surfaces. Returns whether all these are
+    /// fit to be merged: thin solids can come to cross themselves.
+    bool mesh_again(std::vector<Operand>& operands, std::span<const std::size_t> which,
                     std::span<const std::vector<FacePoint>> points, std::vector<std::string>& warnings) const;
 
   private:
