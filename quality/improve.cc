@@ -49,7 +49,8 @@ ImproveResult improve(TetMesh& mesh, const ImproveOptions& options, const volmes
     Improver improver(mesh, std::move(shapes), options, projector, result);
     result.worst_before = improver.worst();
     improver.raise_mean();
-    auto tries_left = static_cast<std::size_t>(std::ceil(options.tries_per_cell * mesh.n_cells()));
+    std::size_t tries_left =
+        options.base_tries + static_cast<std::size_t>(std::ceil(options.tries_per_cell * mesh.n_cells()));
     const std::size_t most_tries = (tries_left + 3) / 4;
     bool all_moves = false;
     for (int pass = 0; pass < options.max_passes && !result.is_cut_short; ++pass) {

@@ -12,9 +12,13 @@ namespace maille::quality {
 /// How far to go.
 struct ImproveOptions {
     int max_passes = 12;  ///< over the worst cells
-    /// Most cells that the passes try, for each cell of the mesh; one pass tries a quarter of that, the worst
-    /// first. Only meshes that are bad all over reach it, where more tries gain little.
+    ///@{
+    /// The passes try so many cells at most, and for each cell of the mesh so many more; one pass tries a
+    /// quarter of that, the worst first. Only meshes that are bad all over reach it, where more tries gain
+    /// little.
+    std::size_t base_tries = 40'000;
     double tries_per_cell = 0.75;
+    ///@}
     /// Cells whose objective (objective.hh) is at least this are left as they are; .5 stands for angles of 30
     /// and 125 degrees and beta = .58.
     double good_enough = 0.5;
@@ -41,7 +45,7 @@ struct ImproveResult {
     /// Least objective of the mesh, before and after.
     double worst_before = 0, worst_after = 0;
     ///@}
-    bool is_cut_short = false;  ///< by `tries_per_cell`
+    bool is_cut_short = false;  ///< by the limit of tries
 
     /// Number of all edits.
     std::size_t edits() const { return moves + edge_removals + face_removals + collapses + splits; }

@@ -144,7 +144,8 @@ TEST_CASE("a limit of tries is kept to, the worst first") {
     TetMesh unlimited = mesh;
     const ImproveResult all = improve(unlimited, options);
     CHECK_FALSE(all.is_cut_short);
-    options.tries_per_cell = 16.0 / mesh.n_cells();
+    options.base_tries = 6;
+    options.tries_per_cell = 10.0 / mesh.n_cells();
     const ImproveResult result = improve(mesh, options);
     CHECK(result.is_cut_short);
     // A try moves the four vertices of a cell at most.
