@@ -128,8 +128,9 @@ std::vector<std::size_t> append(std::vector<std::vector<FacePoint>>& points,
     return changed;
 }
 
-/// Where vertices are short of their surfaces, tries again with triangles that are on these there, some times
-/// or until none is. A further attempt takes as long as the first: large models have none.
+/// Where vertices are short of their surfaces, tries again with triangles that are on these there, some times,
+/// as long as that leaves half of them at most. A further attempt takes as long as the first: large models have
+/// none.
 void try_again(Attempt& best, const Model& model, const BuildOptions& options, const PrimitiveMesher& mesher,
                std::vector<Operand>& operands) {
     constexpr int most_times = 4;
@@ -146,7 +147,9 @@ void try_again(Attempt& best, const Model& model, const BuildOptions& options, c
             if (!mesher.mesh_again(operands, changed, points, next.warnings)) return;
             add_mesh(next, model, options, operands);
             more = points_to_meet(model, next.merged, next.projection.short_of_target);
+            const bool is_worth_another = 2 * n_short(next) <= n_short(best);
             if (n_short(next) < n_short(best)) best = std::move(next);
+            if (!is_worth_another) return;
         } catch (const InputError&) {
             return;  // what there is already is as good as it gets
         }
