@@ -171,6 +171,8 @@ class PlaneCutter {
         if (is_new) {
             const Face hint = latest_ == Triangulation::Vertex_handle() ? Face() : latest_->face();
             at->second = triangulation_.insert(lines_.flat(point), hint);
+            if (at->second->info().value != none)
+                throw std::logic_error("two points of the arrangement are at one place");
             at->second->info().value = point;
         }
         latest_ = at->second;

@@ -68,6 +68,10 @@ class Inserter {
         return normal.dot(wanted) > least_alignment * normal.norm();
     }
 
+    bool lies_on(std::uint32_t surface, const Point& p, double scale) const {
+        return (shape_.project(surface, p) - p).norm() <= 1e-9 * scale;
+    }
+
     /// The triangle of the face that the point is over, or nothing.
     Foot triangle_under(const FacePoint& wanted) const {
         Foot best;
@@ -90,16 +94,16 @@ class Inserter {
         return best;
     }
 
-    /// Both halves of both triangles must be fit. The edges between faces stay as they are.
+    /// Both halves of every triangle at the edge must be fit.
     Vertex split(Edge e, const FacePoint& wanted) {
-        if (is_rim(e)) return Vertex();
         for (const int side : {0, 1}) {
             const Halfedge h = mesh_.halfedge_handle(e, side);
+            const std::uint32_t on = surface(mesh_.face_handle(h));
+            if (on != wanted.face && !lies_on(on, wanted.point, mesh_.calc_edge_length(e))) return Vertex();
             const Point from = mesh_.point(mesh_.from_vertex_handle(h)),
                         to = mesh_.point(mesh_.to_vertex_handle(h)),
                         apex = mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
-            if (!is_aligned(wanted.face, {from, wanted.point, apex}) ||
-                !is_aligned(wanted.face, {wanted.point, to, apex}))
+            if (!is_aligned(on, {from, wanted.point, apex}) || !is_aligned(on, {wanted.point, to, apex}))
                 return Vertex();
         }
         return mesh_.split_copy(e, wanted.point);
