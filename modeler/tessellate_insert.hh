@@ -16,8 +16,8 @@ struct FacePoint {
 
 /// Makes the points vertices of a tessellation, so that its flat triangles are on the true surface there.
 /// Points must lie on their faces' surfaces; those that no triangle of the face is under are left out, and
-/// those so near to a vertex or to the face's rim that there would be slivers. Cost: a pass over the
-/// triangles for each point.
+/// those so near to a vertex that there would be slivers. At a rim the triangles on both sides are divided.
+/// Cost: a pass over the triangles for each point.
 void insert_points(volmesh::TriMesh& mesh, const Shape& shape, std::span<const FacePoint> points);
 
 }  // namespace maille::modeler

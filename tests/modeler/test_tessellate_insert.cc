@@ -56,12 +56,13 @@ TEST_CASE("points of round faces become vertices, and the tessellation stays one
     }
 }
 
-TEST_CASE("points at a rim and beyond the face are left out") {
+TEST_CASE("a point of a rim divides both faces, and one beyond the face is left out") {
     const auto shape = make_cylinder(2, 1, 1, false);
     TriMesh mesh = tessellate(primitive(shape), 0.5);
     const std::size_t before = mesh.n_vertices();
     const Point on_rim(std::cos(0.1), std::sin(0.1), 2), beyond(1, 0, 2.5);
     insert_points(mesh, *shape, std::vector<FacePoint>{{0, on_rim}, {0, beyond}});
-    CHECK(mesh.n_vertices() == before);
+    CHECK(mesh.n_vertices() == before + 1);
+    CHECK(has_vertex(mesh, on_rim));
     check_surface(mesh, *shape, 2);
 }
