@@ -58,7 +58,7 @@ class TetMesh : public TetNavigation {
 
     /// A cell as it is stored, so that a step from cell to cell takes one line of the cache.
     struct alignas(32) Cell {
-        std::array<Index, 4> vertices;
+        std::array<Index, 4> vertices;   ///< positively oriented
         std::array<Index, 4> neighbors;  ///< by local face: the half-face on the other side
     };
 
