@@ -71,9 +71,8 @@ class Bisector {
 
     TetMesh& mesh_;
     LongestEdge longest_edge_;
-    volmesh::Column<std::uint8_t>
-        state_;                    ///< by cell: its longest edge, whether it is born, changed, claimed
-    std::vector<CellHandle> log_;  ///< cells that `refresh` and single splits have changed, in order
+    volmesh::Column<std::uint8_t> state_;  ///< by cell: its longest edge, and the marks above
+    std::vector<CellHandle> log_;          ///< cells that `refresh` and single splits have changed, in order
     Lineage lineage_;
 };
 

@@ -81,8 +81,8 @@ class Refinement {
     Cells mark() {
         const Stopwatch watch(result_.seconds.mark);
         const Cells changed = bisector_.take_changed();
-        if (options_.method == Method::rivara &&
-            options_.order == Order::none)  // the mesh is the same in any order
+        // By Rivara the mesh is the same in any order.
+        if (options_.method == Method::rivara && options_.order == Order::none)
             return cells_to_refine(bisector_, changed, size_, options_.ratio, curve_);
         Cells marked = cells_to_refine(bisector_, changed, size_, options_.ratio);
         sort_cells(marked, bisector_, options_.order);
