@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "modeler/build_primitives.hh"
 #include "volmesh/face_surfaces.hh"
 
 namespace maille::modeler {
@@ -25,14 +26,15 @@ std::map<VertexHandle, volmesh::Surfaces> supports_of(
 class Collector {
   public:
     explicit Collector(const Model& model)
-        : model_(model), numbered_(surfaces(model)), project_(surface_projection(model)) {
-        for (const Primitive& primitive : model.primitives) box_.extend(primitive.shape->bounding_box());
-        points_.resize(model.primitives.size());
-    }
+        : model_(model),
+          numbered_(surfaces(model)),
+          project_(surface_projection(model)),
+          size_(diagonal(model)),
+          points_(model.primitives.size()) {}
 
     void add(const volmesh::Surfaces& surfaces, const Point& p) {
         const auto common = project_({surfaces.data(), surfaces.size()}, p);
-        if (common && (*common - p).norm() < reach * size()) add(*common);
+        if (common && (*common - p).norm() < reach * size_) add(*common);
         for (const std::uint32_t s : surfaces)
             add(model_.primitives[numbered_[s].primitive].shape->project(numbered_[s].face, p));
     }
@@ -42,15 +44,13 @@ class Collector {
   private:
     static constexpr double reach = 0.1, same_place = 1e-9;  // to the model's size
 
-    double size() const { return box_.diagonal().norm(); }
-
     /// To all round faces that go through the point.
     void add(const Point& p) {
         for (std::uint32_t i = 0; i < points_.size(); ++i) {
             const Shape& shape = *model_.primitives[i].shape;
-            if (shape.bounding_box().exteriorDistance(p) > same_place * size()) continue;
+            if (shape.bounding_box().exteriorDistance(p) > same_place * size_) continue;
             for (std::uint32_t face = 0; face < shape.faces().size(); ++face)
-                if (!shape.faces()[face].planar && (shape.project(face, p) - p).norm() <= same_place * size())
+                if (!shape.faces()[face].planar && (shape.project(face, p) - p).norm() <= same_place * size_)
                     points_[i].push_back({face, p});
         }
     }
@@ -58,7 +58,7 @@ class Collector {
     const Model& model_;
     std::vector<ModelSurface> numbered_;
     SurfaceProjection project_;
-    Eigen::AlignedBox3d box_;
+    double size_;
     std::vector<std::vector<FacePoint>> points_;
 };
 
