@@ -10,6 +10,7 @@
 #include "modeler/merge_operand.hh"
 #include "modeler/phase_timer.hh"
 #include "modeler/projector_touch.hh"
+#include "modeler/trim.hh"
 #include "volmesh/error.hh"
 
 namespace maille::modeler {
@@ -158,10 +159,11 @@ void try_again(Attempt& best, const Model& model, const BuildOptions& options, c
 
 }  // namespace
 
-TetMesh build(const Model& model, const BuildOptions& options, BuildReport* report) {
+TetMesh build(const Model& given, const BuildOptions& options, BuildReport* report) {
     BuildReport unwanted;
     BuildReport& told = report != nullptr ? *report : unwanted;
-    if (model.primitives.empty()) throw InputError("the model is empty: it has no solids");
+    if (given.primitives.empty()) throw InputError("the model is empty: it has no solids");
+    const Model model = trimmed(given);
     const PrimitiveMesher mesher(model, options);
     std::vector<Operand> operands;
     {

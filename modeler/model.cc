@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 namespace maille::modeler {
-namespace {
 
-Eigen::AlignedBox3d box_of(const CsgTree& tree, const std::vector<Primitive>& primitives) {
+Eigen::AlignedBox3d bounding_box(const CsgTree& tree, const std::vector<Primitive>& primitives) {
     if (tree.operation == Operation::leaf) return primitives[tree.primitive].shape->bounding_box();
     Eigen::AlignedBox3d box;
     for (const CsgTree& child : tree.children) {
         const bool is_first = &child == &tree.children.front();
         if (tree.operation == Operation::difference && !is_first) break;
-        const Eigen::AlignedBox3d part = box_of(child, primitives);
+        const Eigen::AlignedBox3d part = bounding_box(child, primitives);
         if (tree.operation == Operation::intersection && !is_first)
             box = box.intersection(part);
         else
@@ -20,10 +19,8 @@ Eigen::AlignedBox3d box_of(const CsgTree& tree, const std::vector<Primitive>& pr
     return box.isEmpty() ? Eigen::AlignedBox3d() : box;
 }
 
-}  // namespace
-
 Eigen::AlignedBox3d bounding_box(const Model& model) {
-    return box_of(model.tree, model.primitives);
+    return bounding_box(model.tree, model.primitives);
 }
 
 std::vector<ModelSurface> surfaces(const Model& model) {

@@ -42,6 +42,8 @@ std::vector<ModelSurface> surfaces(const Model& model);
 /// A box around the solid that the tree makes, from those of the primitives: as small as can be for unions; what
 /// is cut off may leave it too large. Empty where the solid certainly is.
 Eigen::AlignedBox3d bounding_box(const Model& model);
+/// The same of a part of a tree over the primitives.
+Eigen::AlignedBox3d bounding_box(const CsgTree& tree, const std::vector<Primitive>& primitives);
 
 /// Faces between two regions of the mesh lie on a surface too, but are no part of its boundary: their face
 /// set has the surface's name with this after it.

@@ -5,6 +5,7 @@
 
 #include "modeler/model.hh"
 #include "modeler/projector_newton.hh"
+#include "modeler/trim.hh"
 
 namespace maille::modeler {
 namespace {
@@ -50,7 +51,8 @@ SurfaceProjection surface_projection(const Model& model) {
     };
 }
 
-volmesh::Projector projector(const Model& model) {
+volmesh::Projector projector(const Model& given) {
+    const Model model = trimmed(given);
     volmesh::Projector result;
     for (const ModelSurface& surface : surfaces(model)) result.surfaces.push_back(surface.name);
     const auto count = static_cast<std::uint32_t>(result.surfaces.size());
