@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "modeler/point_grid.hh"
 #include "volmesh/error.hh"
 
 namespace maille::modeler::detail {
@@ -52,55 +52,6 @@ void check(const ClosedSurface& surface, std::size_t primitive) {
                                      surface.triangles.size(), surface.surfaces.size()));
     check_closed(surface, primitive);
 }
-
-/// Cells of a grid a few welding distances wide, so that a point rarely has to look into more than its own.
-class PointGrid {
-  public:
-    PointGrid(double distance, const std::vector<Eigen::Vector3d>& points)
-        : distance_(distance), cell_(16 * distance), points_(points) {
-        cells_.reserve(points.size());
-    }
-
-    /// The earliest point added that is nearer than the distance; `i` itself, which is added, if there is
-    /// none.
-    std::uint32_t find_or_add(std::uint32_t i) {
-        const Eigen::Vector3d& p = points_[i];
-        std::uint32_t found = i;
-        const Cell low = cell_of(p.array() - distance_), high = cell_of(p.array() + distance_);
-        for (std::int64_t x = low[0]; x <= high[0]; ++x)
-            for (std::int64_t y = low[1]; y <= high[1]; ++y)
-                for (std::int64_t z = low[2]; z <= high[2]; ++z)
-                    found = std::min(found, nearest({x, y, z}, p, found));
-        if (found == i) cells_[hash(cell_of(p.array()))].push_back(i);
-        return found;
-    }
-
-  private:
-    using Cell = std::array<std::int64_t, 3>;
-
-    Cell cell_of(const Eigen::Array3d& p) const {
-        const Eigen::Array3d c = (p / cell_).floor();
-        return {static_cast<std::int64_t>(c[0]), static_cast<std::int64_t>(c[1]),
-                static_cast<std::int64_t>(c[2])};
-    }
-    static std::uint64_t hash(const Cell& c) {
-        std::uint64_t h = 0;
-        for (const auto x : c) h = (h ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15U, h ^= h >> 29;
-        return h;
-    }
-    std::uint32_t nearest(const Cell& c, const Eigen::Vector3d& p, std::uint32_t otherwise) const {
-        const auto it = cells_.find(hash(c));
-        if (it == cells_.end()) return otherwise;
-        for (const auto j : it->second)
-            if ((points_[j] - p).norm() <= distance_) return j;
-        return otherwise;
-    }
-
-    double distance_;
-    double cell_;
-    const std::vector<Eigen::Vector3d>& points_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
-};
 
 Eigen::AlignedBox3d bounding_box(const FacetComplex& complex) {
     Eigen::AlignedBox3d box;
@@ -157,17 +108,15 @@ Scene gather(std::span<const ClosedSurface> primitives) {
 
 void weld(Scene& scene, double distance) {
     const auto& points = scene.complex.points;
-    PointGrid grid(distance, points);
+    PointGrid grid(distance);
     std::vector<std::uint32_t> new_index(points.size());
     std::vector<Eigen::Vector3d> kept;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const auto same = grid.find_or_add(i);
-        if (same == i) {
-            new_index[i] = static_cast<std::uint32_t>(kept.size());
-            kept.push_back(points[i]);
-        } else {
-            new_index[i] = new_index[same];
-        }
+        const auto same = grid.find(points[i]);
+        new_index[i] = same.value_or(static_cast<std::uint32_t>(kept.size()));
+        if (same) continue;
+        grid.add(points[i], new_index[i]);
+        kept.push_back(points[i]);
     }
     scene.complex.points = std::move(kept);
 

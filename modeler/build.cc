@@ -129,9 +129,9 @@ std::vector<std::size_t> append(std::vector<std::vector<FacePoint>>& points,
     return changed;
 }
 
-/// Where vertices are short of their surfaces, tries again with triangles that are on these there, some times,
-/// as long as that leaves half of them at most. A further attempt takes as long as the first: large models have
-/// none.
+/// Where vertices are short of their surfaces, tries again with triangles that are on these there, some
+/// times, as long as that leaves half of them at most. A further attempt takes as long as the first: large
+/// models have none.
 void try_again(Attempt& best, const Model& model, const BuildOptions& options, const PrimitiveMesher& mesher,
                std::vector<Operand>& operands) {
     constexpr int most_times = 4;
@@ -139,19 +139,19 @@ void try_again(Attempt& best, const Model& model, const BuildOptions& options, c
     if (best.merged.faces.size() > most_faces) return;
     const auto n_short = [](const Attempt& attempt) { return attempt.projection.short_of_target.size(); };
     std::vector<std::vector<FacePoint>> points(operands.size());
-    auto more = points_to_meet(model, best.merged, best.projection.short_of_target);
+    auto more = points_to_meet(model, operands, best.merged, best.projection.short_of_target);
     for (int i = 0; i < most_times && n_short(best) > 0; ++i) {
         const auto changed = append(points, more);
         if (changed.empty()) return;
         try {
             Attempt next;
-            if (!mesher.mesh_again(operands, changed, points, next.warnings)) return;
+            if (!mesher.mesh_again(operands, changed, points, next.warnings)) { if (getenv("DBG")) fprintf(stderr, "crosses itself\n"); return; }
             add_mesh(next, model, options, operands);
-            more = points_to_meet(model, next.merged, next.projection.short_of_target);
+            more = points_to_meet(model, operands, next.merged, next.projection.short_of_target);
             const bool is_worth_another = 2 * n_short(next) <= n_short(best);
             if (n_short(next) < n_short(best)) best = std::move(next);
             if (!is_worth_another) return;
-        } catch (const InputError&) {
+        } catch (const InputError& e) { if (getenv("DBG")) fprintf(stderr, "AGAIN FAILED %.300s\n", e.what());
             return;  // what there is already is as good as it gets
         }
     }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "modeler/build_primitives.hh"
+#include "modeler/point_grid.hh"
 #include "volmesh/face_surfaces.hh"
 
 namespace maille::modeler {
@@ -23,13 +24,49 @@ std::map<VertexHandle, volmesh::Surfaces> supports_of(
     return supports;
 }
 
+/// Points no further apart are one; to the model's size.
+constexpr double same_place = 1e-9;
+
+/// The vertices that the surfaces have or are to get. What is nearly at one of them is moved there: two that
+/// close, on surfaces that cross there, would leave facets too small to be meshed.
+class Places {
+  public:
+    Places(std::span<const Operand> operands, double model_size)
+        : same_(same_place * model_size),
+          near_(close * std::ranges::min_element(operands, {}, &Operand::size)->size) {
+        for (const Operand& operand : operands)
+            for (const Point& p : operand.surface.points) add(p);
+    }
+
+    /// The one at p or, if there is none, the one near to it, or else p itself, which is one from now on.
+    Point at(const Point& p) {
+        if (const auto same = same_.find(p)) return points_[*same];
+        if (const auto near = near_.find(p)) return points_[*near];
+        add(p);
+        return p;
+    }
+
+  private:
+    static constexpr double close = 1e-3;  // to the edges' size
+
+    void add(const Point& p) {
+        const auto number = static_cast<std::uint32_t>(points_.size());
+        for (PointGrid* grid : {&same_, &near_}) grid->add(p, number);
+        points_.push_back(p);
+    }
+
+    std::vector<Point> points_;
+    PointGrid same_, near_;
+};
+
 class Collector {
   public:
-    explicit Collector(const Model& model)
+    Collector(const Model& model, std::span<const Operand> operands)
         : model_(model),
           numbered_(surfaces(model)),
           project_(surface_projection(model)),
           size_(diagonal(model)),
+          places_(operands, size_),
           points_(model.primitives.size()) {}
 
     void add(const volmesh::Surfaces& surfaces, const Point& p) {
@@ -42,10 +79,11 @@ class Collector {
     std::vector<std::vector<FacePoint>> take() { return std::move(points_); }
 
   private:
-    static constexpr double reach = 0.1, same_place = 1e-9;  // to the model's size
+    static constexpr double reach = 0.1;  // to the model's size
 
     /// To all round faces that go through the point.
-    void add(const Point& p) {
+    void add(const Point& wanted) {
+        const Point p = places_.at(wanted);
         for (std::uint32_t i = 0; i < points_.size(); ++i) {
             const Shape& shape = *model_.primitives[i].shape;
             if (shape.bounding_box().exteriorDistance(p) > same_place * size_) continue;
@@ -59,14 +97,16 @@ class Collector {
     std::vector<ModelSurface> numbered_;
     SurfaceProjection project_;
     double size_;
+    Places places_;
     std::vector<std::vector<FacePoint>> points_;
 };
 
 }  // namespace
 
-std::vector<std::vector<FacePoint>> points_to_meet(const Model& model, const Merged& merged,
+std::vector<std::vector<FacePoint>> points_to_meet(const Model& model, std::span<const Operand> operands,
+                                                   const Merged& merged,
                                                    std::span<const quality::ShortOfTarget> short_of_target) {
-    Collector collector(model);
+    Collector collector(model, operands);
     for (const auto& [vertex, surfaces] : supports_of(merged, short_of_target))
         collector.add(surfaces, merged.mesh.point(vertex));
     return collector.take();
