@@ -31,15 +31,31 @@ struct SharedSphere {
     int count;
 };
 
+/// A circle about the axis of a surface of revolution.
+struct RoundRim {
+    double angle;  ///< of the surface's meridian in the reference's coordinates
+    int count;     ///< of edges, a multiple of 4
+};
+
+/// An ellipsoid or torus that touches others along circles about one axis, or has their rims on it: cut into
+/// rows about that axis, some of which are these circles. It is a surface of revolution in the coordinates of
+/// the reference.
+struct SharedRound {
+    Cone reference;              ///< tells coordinates; its x axis points to the first point of each circle
+    std::vector<RoundRim> rims;  ///< rising in angle; at least one
+};
+
 struct SharedSurface {
-    std::variant<SharedCone, SharedSphere> cut;
+    std::variant<SharedCone, SharedSphere, SharedRound> cut;
 };
 
 /// Finds the round surfaces that have to be cut with regard to others: cones, cylinders and spheres on which
-/// several primitives lie get the same triangles; spheres and cylinders that touch along a circle, and cones
-/// that end in one circle, the same points on it; cylinders that touch planes or cylinders along a line, an
-/// edge there. By primitive; null where there is no other. Primitives that share a surface, or a circle of a
-/// sphere, get one size, the smallest of theirs.
+/// several primitives lie get the same triangles; surfaces of revolution on one axis (ellipsoids, cylinders,
+/// cones and tori, or images of such under one affine map) that touch along a circle, or on which another's
+/// rim lies, the same points on it; so do cones that end in one circle; cylinders that touch planes or
+/// cylinders along a line, or on which a straight edge lies, get an edge there. By primitive; null where
+/// there is no other. Primitives that share a surface, or a circle of an ellipsoid or torus, get one size,
+/// the smallest of theirs.
 std::vector<std::shared_ptr<const SharedSurface>> find_shared_surfaces(std::span<const Primitive> primitives,
                                                                        std::span<double> sizes,
                                                                        double chord_tolerance);

@@ -50,17 +50,31 @@ void check_count(const Shape& shape, const Sizing& sizing) {
                         length, triangles, most));
 }
 
-SurfaceSeed seed_shared(const Cone& shape, const TessellateOptions& options) {
+Sizing sizing_of(const Cone& cone, const TessellateOptions& options) {
+    return {cone, options, thinnest_radius(cone)};
+}
+
+SurfaceSeed seed_shared(const Cone& shape, const TessellateOptions& options, const Sizing&) {
     const auto& shared = std::get<SharedCone>(options.shared->cut);
-    const Sizing sizing(shared.reference, options, thinnest_radius(shared.reference));
-    return seed_shared_surface(shape, sizing, shared);
+    return seed_shared_surface(shape, sizing_of(shared.reference, options), shared);
 }
 
-SurfaceSeed seed_shared(const Ellipsoid& shape, const TessellateOptions& options) {
-    return seed_shared_surface(shape, std::get<SharedSphere>(options.shared->cut));
+SurfaceSeed seed_shared_round(const Shape& shape, const TessellateOptions& options, const Sizing& sizing) {
+    const auto& shared = std::get<SharedRound>(options.shared->cut);
+    return seed_shared_surface(shape, sizing, sizing_of(shared.reference, options), shared);
 }
 
-SurfaceSeed seed_shared(const Shape&, const TessellateOptions&) {
+SurfaceSeed seed_shared(const Ellipsoid& shape, const TessellateOptions& options, const Sizing& sizing) {
+    const auto* sphere = std::get_if<SharedSphere>(&options.shared->cut);
+    return sphere != nullptr ? seed_shared_surface(shape, *sphere)
+                             : seed_shared_round(shape, options, sizing);
+}
+
+SurfaceSeed seed_shared(const Torus& shape, const TessellateOptions& options, const Sizing& sizing) {
+    return seed_shared_round(shape, options, sizing);
+}
+
+SurfaceSeed seed_shared(const Shape&, const TessellateOptions&, const Sizing&) {
     throw std::logic_error("a shape of a kind that shares no surfaces");
 }
 
@@ -95,7 +109,8 @@ TriMesh tessellate(const Primitive& primitive, const TessellateOptions& options)
     visit(*primitive.shape, [&](const auto& shape) {
         const Sizing sizing(shape, options, thinnest_radius(shape));
         check_count(shape, sizing);
-        const SurfaceSeed seed = options.shared ? seed_shared(shape, options) : seed_surface(shape, sizing);
+        const SurfaceSeed seed =
+            options.shared ? seed_shared(shape, options, sizing) : seed_surface(shape, sizing);
         mesh = to_mesh(seed);
         const bool is_planar = std::ranges::all_of(shape.faces(), &PrimitiveFace::planar);
         if (!options.is_draft || !is_planar)

@@ -202,8 +202,9 @@ SurfaceSeed seed_shared_surface(const Cone& shape, const Sizing& sizing, const S
         const std::vector<double> heights = row_heights(cone, sizing, low->height, high->height);
         for (std::size_t k = 1; k + 1 < heights.size(); ++k) {
             const Circumference row(cone.map(), sizing, cone.radius(heights[k]));
-            add_row(heights[k], is_cylinder ? first->count : to_count(row.edges(), 6),
-                    shared.is_straight ? 0 : static_cast<int>(k % 2));
+            const int wanted = is_cylinder ? first->count : to_count(row.edges(), 6);
+            const auto [count, offset] = row_between(low->count, high->count, k, heights.size() - 1, wanted);
+            add_row(heights[k], count, shared.is_straight ? 0 : offset);
         }
         add_row(high->height, high->count, 0);
     }

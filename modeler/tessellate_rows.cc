@@ -25,10 +25,17 @@ void stitch(SurfaceSeed& seed, const Row& lower, const Row& upper, std::uint32_t
     }
 }
 
+RowPoints row_between(int first_rim, int last_rim, std::size_t k, std::size_t n, int wanted) {
+    if (k == 1 && first_rim > 1) return {first_rim, 1};
+    if (k + 1 == n && last_rim > 1) return {last_rim, 1};
+    return {wanted, static_cast<int>(k % 2)};
+}
+
 Circumference::Circumference(const Eigen::Affine3d& map, const Sizing& sizing, double radius)
     : x_(map.linear().col(0)), y_(map.linear().col(1)) {
-    is_circle_ = std::abs(x_.squaredNorm() - y_.squaredNorm()) < 1e-13 * x_.squaredNorm() &&
-                 std::abs(x_.dot(y_)) < 1e-13 * x_.squaredNorm();
+    constexpr double slack = 1e-4;
+    is_circle_ = std::abs(x_.squaredNorm() - y_.squaredNorm()) < slack * x_.squaredNorm() &&
+                 std::abs(x_.dot(y_)) < slack * x_.squaredNorm();
     for (int i = 0; i < samples; ++i) {
         const Eigen::Vector2d u = unit_circle(2 * i + 1, 2 * samples);
         const double speed = (u.x() * y_ - u.y() * x_).norm();

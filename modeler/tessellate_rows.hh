@@ -26,7 +26,16 @@ struct Row {
 /// The band between two rows: always the shorter of the two possible next edges.
 void stitch(SurfaceSeed& seed, const Row& lower, const Row& upper, std::uint32_t surface, bool mirrored);
 
-/// How points are spread around the axis: evenly on a circle, by the wanted sizes on an ellipse.
+/// Points and offset of the row k of n, of which the first and the last are rims of so many edges. Where other
+/// surfaces touch at a rim, the rows next to it are alike on all: else facets would cross there. A rim of one
+/// point is none.
+struct RowPoints {
+    int count, offset;
+};
+RowPoints row_between(int first_rim, int last_rim, std::size_t k, std::size_t n, int wanted);
+
+/// How points are spread around the axis: evenly on a circle, or on what is nearly one, by the wanted sizes
+/// on an ellipse.
 class Circumference {
   public:
     /// Of the image of the circle of that radius about the z axis.

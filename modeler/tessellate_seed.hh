@@ -71,7 +71,12 @@ SurfaceSeed seed_surface(const Turned& shape, const Sizing& sizing);
 /// Of a primitive that shares its curved surface with others; the sizing is that of the reference.
 SurfaceSeed seed_shared_surface(const Cone& shape, const Sizing& sizing, const SharedCone& shared);
 SurfaceSeed seed_shared_surface(const Ellipsoid& sphere, const SharedSphere& shared);
+/// Of an ellipsoid or torus.
+SurfaceSeed seed_shared_surface(const Shape& shape, const Sizing& sizing, const Sizing& sizing_of_reference,
+                                const SharedRound& shared);
 
+/// Edges of a circle about the axis of an ellipsoid or torus, at that angle of its meridian in the frame.
+int rim_count(const Shape& shape, const Eigen::Affine3d& frame, const Sizing& sizing, double angle);
 /// Edges of a cone's lower or upper rim.
 int rim_count(const Cone& cone, const Sizing& sizing, bool end);
 

@@ -63,6 +63,7 @@ void check(const Case& test) {
     BuildReport report;
     const auto mesh = build(model, {.size = .2}, &report);
     CHECK(report.warnings.empty());
+    CHECK(report.projection.short_of_target.empty());
     CHECK(volmesh::validate(mesh).ok());
     // Chords of that length take no more than this from the smallest of the circles.
     CHECK(volmesh::volume(mesh) == doctest::Approx(test.volume).epsilon(.06));
@@ -135,6 +136,37 @@ TEST_CASE("what shares no round surface is cut as it likes") {
         "apart");
     std::vector<double> sizes(model.primitives.size(), .1);
     for (const auto& shared : find_shared_surfaces(model.primitives, sizes, 0)) CHECK_FALSE(shared);
+}
+
+TEST_CASE("surfaces of revolution on one axis that touch, or have rims on one another, leave no slivers") {
+    const std::string capped = "cylinder(h = 1, r = .5); translate([0, 0, 1]) scale([1, 1, .4]) sphere(.5);";
+    const double capped_volume = pi / 4 + pi / 30;
+    const std::string by_six_digits =
+        "multmatrix([[.866025, 0, .5, 0], [0, 1, 0, 0], [-.5, 0, .866025, 0], [0, 0, 0, 1]])";
+    for (const Case& test : {
+             Case{capped, capped_volume, 10},
+             {"rotate([50, 60, 70]) {" + capped + "}", capped_volume, 10},
+             {"scale([1.5, 1, 1]) {" + capped + "}", 1.5 * capped_volume, 10},
+             {by_six_digits + "{" + capped + "}", capped_volume, 10},
+             {by_six_digits +
+                  "{ cylinder(h = 2, r = .5); sphere(.5); translate([-1, .5, .5]) cube([2, 1, 1]); }",
+              2 + pi / 2 + pi / 12, 10},
+             {"translate([0, 0, -.5]) cylinder(h = .5, r = .5); rotate(9) translate([0, 0, -.5]) " + capped,
+              capped_volume, 10},
+             {"fragment() { sphere(1); cylinder(h = 1.6, r = .6, center = true); }", 4 * pi / 3, 10},
+             {"translate([0, 0, .3]) cylinder(h = .8 / 1.5, r1 = .4, r2 = 0); sphere(.5);",
+              pi / 6 - pi * .04 * 1.3 / 3 + pi * .16 * .8 / 4.5, 10},
+             {"translate([0, 0, .1]) cylinder(h = 2.2 / 3, r1 = 1.65 / 3, r2 = 0); sphere(.5);",
+              pi / 6 - pi * .16 * 1.1 / 3 + pi * .3025 * 2.2 / 9, 10},
+             {"fragment() { cylinder(h = .8, r = 1.4, center = true); torus(1, .4); }", pi * 1.96 * .8, 10},
+             {"sphere(1); torus(1.4, .4);", 4 * pi / 3 + 2 * pi * pi * 1.4 * .16, 10},
+             {"fragment() { sphere(1); scale([1, 1, .5]) sphere(1); }", 4 * pi / 3, 10},
+             {"scale([1, 2, 1]) rotate([0, 40, 0]) fragment() { sphere(.6); scale([1, 1, .5]) sphere(.6); }",
+              2 * 4 * pi / 3 * .216, 10},
+             {"cylinder(h = 2, r = .5); linear_extrude(2) polygon([[.5, 0], [1, 1], [0, .5]]);",
+              2 * (3 * pi / 16 + .5), 10},
+         })
+        check(test);
 }
 
 TEST_CASE("surfaces that coincide or touch leave no slivers") {
