@@ -145,13 +145,13 @@ void try_again(Attempt& best, const Model& model, const BuildOptions& options, c
         if (changed.empty()) return;
         try {
             Attempt next;
-            if (!mesher.mesh_again(operands, changed, points, next.warnings)) { if (getenv("DBG")) fprintf(stderr, "crosses itself\n"); return; }
+            if (!mesher.mesh_again(operands, changed, points, next.warnings)) return;
             add_mesh(next, model, options, operands);
             more = points_to_meet(model, operands, next.merged, next.projection.short_of_target);
             const bool is_worth_another = 2 * n_short(next) <= n_short(best);
             if (n_short(next) < n_short(best)) best = std::move(next);
             if (!is_worth_another) return;
-        } catch (const InputError& e) { if (getenv("DBG")) fprintf(stderr, "AGAIN FAILED %.300s\n", e.what());
+        } catch (const InputError&) {
             return;  // what there is already is as good as it gets
         }
     }
