@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "modeler/align.hh"
 #include "modeler/arguments.hh"
 #include "modeler/hull.hh"
 #include "modeler/language_extrude.hh"
@@ -18,6 +19,7 @@
 #include "modeler/pending_halfspace.hh"
 #include "modeler/solid_extent.hh"
 #include "modeler/tree_building.hh"
+#include "modeler/trim.hh"
 
 namespace maille::modeler {
 namespace {
@@ -253,6 +255,9 @@ class ModelMaker {
     std::map<std::uint32_t, Location> halfspace_at_;
 };
 
+/// What OpenSCAD's six digits and a few transforms leave of places, relative to the size of the model.
+constexpr double written_precision = 1e-5;
+
 }  // namespace
 
 Model parse_model(std::string_view text, const std::string& name, Facets facets) {
@@ -262,7 +267,8 @@ Model parse_model(std::string_view text, const std::string& name, Facets facets)
     Model model =
         ModelMaker(name, resizes).make(root != nullptr ? std::span(root, 1) : std::span(nodes), facets);
     if (is_empty(model.tree)) throw InputError(fmt::format("{}: the model is empty: it has no solid", name));
-    return model;
+    const Eigen::AlignedBox3d box = bounding_box(model);
+    return box.isEmpty() ? model : aligned(trimmed(model), written_precision * box.diagonal().norm());
 }
 
 Model read_model(const std::filesystem::path& path, Facets facets) {

@@ -24,12 +24,14 @@ using tetgen::Request;
 struct Rung {
     bool keep_facets = true;
     bool refine = true;
-    double jitter = 0;  ///< relative to the diagonal
+    double jitter = 0;        ///< relative to the diagonal
+    double tolerance = 1e-8;  ///< below which TetGen takes four points for coplanar
     const char* words = "";
 };
 
-constexpr std::array<Rung, 7> ladder{{
+constexpr std::array<Rung, 8> ladder{{
     {.words = "as it is"},
+    {.tolerance = 1e-12, .words = "with a tolerance of 1e-12"},
     {.jitter = 1e-10, .words = "with its points shifted by 1e-10 of the diagonal"},
     {.keep_facets = false, .words = "with facets split"},
     {.jitter = 1e-8, .words = "with its points shifted by 1e-8 of the diagonal"},
@@ -122,16 +124,16 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
     request.processor_time = time_limit;
     request.points = jittered(complex.points, rung.jitter);
     for (const Facet& facet : complex.facets) request.facets.push_back(facet.vertices);
-    const std::string keep = rung.keep_facets ? "Y" : "";
-    request.switches = "pnQ" + keep;
+    const std::string common = fmt::format("{}nQT{}", rung.keep_facets ? "Y" : "", rung.tolerance);
+    request.switches = "p" + common;
     const bool one_region = std::ranges::none_of(complex.facets, [](const Facet& f) {
         return std::min(f.front, f.back) != outside || std::max(f.front, f.back) != 0;
     });
     if (rung.refine && one_region) {
-        request.switches = fmt::format("pq1.4/14{}nQo/140a{:.17g}", keep, volume_of_size(sizes[0]));
+        request.switches = fmt::format("pq1.4/14{}o/140a{:.17g}", common, volume_of_size(sizes[0]));
     } else if (rung.refine) {
         place_seeds(request, complex, sizes);
-        request.switches = fmt::format("pq1.4/12{}AnQo/140a", keep);
+        request.switches = fmt::format("pq1.4/12A{}o/140a", common);
     }
     Answer answer = tetgen::run(request);
     tetgen::check_complete(answer, request);
