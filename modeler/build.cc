@@ -130,27 +130,28 @@ std::vector<std::size_t> append(std::vector<std::vector<FacePoint>>& points,
 }
 
 /// Where vertices are short of their surfaces, tries again with triangles that are on these there, some
-/// times, as long as that leaves half of them at most. A further attempt takes as long as the first: large
-/// models have none.
+/// times, as long as every other time leaves half of them at most. A further attempt takes as long as the
+/// first: large models have none.
 void try_again(Attempt& best, const Model& model, const BuildOptions& options, const PrimitiveMesher& mesher,
                std::vector<Operand>& operands) {
-    constexpr int most_times = 4;
+    constexpr int most_times = 4, most_futile = 2;
     constexpr std::size_t most_faces = 100'000;
     if (best.merged.faces.size() > most_faces) return;
-    const auto n_short = [](const Attempt& attempt) { return attempt.projection.short_of_target.size(); };
     std::vector<std::vector<FacePoint>> points(operands.size());
-    auto more = points_to_meet(model, operands, best.merged, best.projection.short_of_target);
-    for (int i = 0; i < most_times && n_short(best) > 0; ++i) {
-        const auto changed = append(points, more);
+    PointsToMeet more = points_to_meet(model, operands, best.merged, best.projection.short_of_target);
+    std::size_t fewest = more.n_vertices;
+    for (int i = 0, futile = 0; i < most_times && futile < most_futile && fewest > 0; ++i) {
+        const auto changed = append(points, more.points);
         if (changed.empty()) return;
         try {
             Attempt next;
             if (!mesher.mesh_again(operands, changed, points, next.warnings)) return;
             add_mesh(next, model, options, operands);
             more = points_to_meet(model, operands, next.merged, next.projection.short_of_target);
-            const bool is_worth_another = 2 * n_short(next) <= n_short(best);
-            if (n_short(next) < n_short(best)) best = std::move(next);
-            if (!is_worth_another) return;
+            futile = 2 * more.n_vertices <= fewest ? 0 : futile + 1;
+            if (more.n_vertices >= fewest) continue;
+            fewest = more.n_vertices;
+            best = std::move(next);
         } catch (const InputError&) {
             return;  // what there is already is as good as it gets
         }

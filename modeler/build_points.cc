@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "modeler/build_primitives.hh"
 #include "modeler/point_grid.hh"
@@ -27,24 +28,29 @@ std::map<VertexHandle, volmesh::Surfaces> supports_of(
 /// Points no further apart are one; to the model's size.
 constexpr double same_place = 1e-9;
 
+double smallest_size(std::span<const Operand> operands) {
+    return std::ranges::min_element(operands, {}, &Operand::size)->size;
+}
+
 /// The vertices that the surfaces have or are to get. What is nearly at one of them is moved there: two that
 /// close, on surfaces that cross there, would leave facets too small to be meshed.
 class Places {
   public:
     Places(std::span<const Operand> operands, double model_size)
-        : same_(same_place * model_size),
-          near_(close * std::ranges::min_element(operands, {}, &Operand::size)->size) {
+        : same_(same_place * model_size), near_(close * smallest_size(operands)) {
         for (const Operand& operand : operands)
             for (const Point& p : operand.surface.points) add(p);
     }
 
-    /// The one at p or, if there is none, the one near to it, or else p itself, which is one from now on.
-    Point at(const Point& p) {
-        if (const auto same = same_.find(p)) return points_[*same];
-        if (const auto near = near_.find(p)) return points_[*near];
+    /// The number of the one at p or, if there is none, of the one near to it, or else of p itself, which is
+    /// one from now on.
+    std::uint32_t number_at(const Point& p) {
+        if (const auto same = same_.find(p)) return *same;
+        if (const auto near = near_.find(p)) return *near;
         add(p);
-        return p;
+        return static_cast<std::uint32_t>(points_.size() - 1);
     }
+    const Point& operator[](std::uint32_t number) const { return points_[number]; }
 
   private:
     static constexpr double close = 1e-3;  // to the edges' size
@@ -66,46 +72,53 @@ class Collector {
           numbered_(surfaces(model)),
           project_(surface_projection(model)),
           size_(diagonal(model)),
+          slack_(on_surface * smallest_size(operands)),
           places_(operands, size_),
-          points_(model.primitives.size()) {}
+          result_{0, std::vector<std::vector<FacePoint>>(model.primitives.size())} {}
 
     void add(const volmesh::Surfaces& surfaces, const Point& p) {
+        std::vector<Point> nearest;
+        for (const std::uint32_t s : surfaces)
+            nearest.push_back(model_.primitives[numbered_[s].primitive].shape->project(numbered_[s].face, p));
+        if (std::ranges::all_of(nearest, [&](const Point& q) { return (q - p).norm() <= slack_; })) return;
+        ++result_.n_vertices;
         const auto common = project_({surfaces.data(), surfaces.size()}, p);
         if (common && (*common - p).norm() < reach * size_) add(*common);
-        for (const std::uint32_t s : surfaces)
-            add(model_.primitives[numbered_[s].primitive].shape->project(numbered_[s].face, p));
+        for (const Point& q : nearest) add(q);
     }
 
-    std::vector<std::vector<FacePoint>> take() { return std::move(points_); }
+    PointsToMeet take() { return std::move(result_); }
 
   private:
     static constexpr double reach = 0.1;  // to the model's size
 
-    /// To all round faces that go through the point.
+    /// To all round faces that go through the point, as far as rounded coordinates of the model can tell.
     void add(const Point& wanted) {
-        const Point p = places_.at(wanted);
-        for (std::uint32_t i = 0; i < points_.size(); ++i) {
+        const std::uint32_t number = places_.number_at(wanted);
+        if (!taken_.insert(number).second) return;
+        const Point& p = places_[number];
+        for (std::uint32_t i = 0; i < result_.points.size(); ++i) {
             const Shape& shape = *model_.primitives[i].shape;
-            if (shape.bounding_box().exteriorDistance(p) > same_place * size_) continue;
+            if (shape.bounding_box().exteriorDistance(p) > slack_) continue;
             for (std::uint32_t face = 0; face < shape.faces().size(); ++face)
-                if (!shape.faces()[face].planar && (shape.project(face, p) - p).norm() <= same_place * size_)
-                    points_[i].push_back({face, p});
+                if (!shape.faces()[face].planar && (shape.project(face, p) - p).norm() <= slack_)
+                    result_.points[i].push_back({face, p});
         }
     }
 
     const Model& model_;
     std::vector<ModelSurface> numbered_;
     SurfaceProjection project_;
-    double size_;
+    double size_, slack_;
     Places places_;
-    std::vector<std::vector<FacePoint>> points_;
+    std::set<std::uint32_t> taken_;
+    PointsToMeet result_;
 };
 
 }  // namespace
 
-std::vector<std::vector<FacePoint>> points_to_meet(const Model& model, std::span<const Operand> operands,
-                                                   const Merged& merged,
-                                                   std::span<const quality::ShortOfTarget> short_of_target) {
+PointsToMeet points_to_meet(const Model& model, std::span<const Operand> operands, const Merged& merged,
+                            std::span<const quality::ShortOfTarget> short_of_target) {
     Collector collector(model, operands);
     for (const auto& [vertex, surfaces] : supports_of(merged, short_of_target))
         collector.add(surfaces, merged.mesh.point(vertex));

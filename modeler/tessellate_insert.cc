@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "modeler/projector_newton.hh"
 #include "modeler/remesh_check.hh"
 
 namespace maille::modeler {
@@ -31,17 +32,26 @@ class Inserter {
     }
 
     void insert(const FacePoint& wanted) {
-        const auto [face, weights] = triangle_under(wanted);
-        if (!face.is_valid() || weights.maxCoeff() > 1 - at_corner) return;
-        Eigen::Index least = 0;
-        weights.minCoeff(&least);
-        // Corners are the ends of the halfedges, in their order; the halfedge before a corner's own is
-        // across.
-        Halfedge across = mesh_.halfedge_handle(face);
-        for (Eigen::Index k = 0; k < (least + 2) % 3; ++k) across = mesh_.next_halfedge_handle(across);
-        const Vertex added =
-            weights[least] < at_edge ? split(mesh_.edge_handle(across), wanted) : split(face, wanted);
-        if (added.is_valid()) improve_around(added);
+        constexpr int most_divisions = 4;
+        for (int i = 0; i <= most_divisions; ++i) {
+            const auto [face, weights] = triangle_under(wanted);
+            if (!face.is_valid()) return;
+            Eigen::Index least = 0, most = 0;
+            weights.minCoeff(&least);
+            if (weights.maxCoeff(&most) > 1 - at_corner) {
+                if (i == 0) refine_around(corner(face, most));
+                return;
+            }
+            const Edge edge = edge_across(face, least);
+            Vertex added;
+            if (weights[least] < at_edge && lies_on_both_sides(edge, wanted))
+                added = split(edge, wanted.point);
+            else if (weights[least] > at_corner)
+                added = split(face, wanted);
+            if (added.is_valid()) return improve_around(added);
+            // The edge runs too far from the surface there, or between the point and the true rim.
+            if (!divide(edge)) return;
+        }
     }
 
   private:
@@ -58,10 +68,23 @@ class Inserter {
             points[n++] = mesh_.point(mesh_.to_vertex_handle(h));
         return points;
     }
-    bool is_rim(Edge e) const {
-        return surface(mesh_.face_handle(mesh_.halfedge_handle(e, 0))) !=
-               surface(mesh_.face_handle(mesh_.halfedge_handle(e, 1)));
+    /// Corners are the ends of the halfedges, in their order.
+    Vertex corner(Face f, Eigen::Index k) const {
+        Halfedge h = mesh_.halfedge_handle(f);
+        for (; k > 0; --k) h = mesh_.next_halfedge_handle(h);
+        return mesh_.to_vertex_handle(h);
     }
+    /// The halfedge before a corner's own is across.
+    Edge edge_across(Face f, Eigen::Index k) const {
+        Halfedge h = mesh_.halfedge_handle(f);
+        for (Eigen::Index i = 0; i < (k + 2) % 3; ++i) h = mesh_.next_halfedge_handle(h);
+        return mesh_.edge_handle(h);
+    }
+    std::array<std::uint32_t, 2> faces_of(Edge e) const {
+        return {surface(mesh_.face_handle(mesh_.halfedge_handle(e, 0))),
+                surface(mesh_.face_handle(mesh_.halfedge_handle(e, 1)))};
+    }
+    bool is_rim(Edge e) const { return faces_of(e)[0] != faces_of(e)[1]; }
     bool is_aligned(std::uint32_t surface, const Corners& c) const {
         const Point normal = (c[1] - c[0]).cross(c[2] - c[0]);
         const Point wanted = shape_.face_normal(surface, (c[0] + c[1] + c[2]) / 3);
@@ -69,7 +92,7 @@ class Inserter {
     }
 
     bool lies_on(std::uint32_t surface, const Point& p, double scale) const {
-        return (shape_.project(surface, p) - p).norm() <= 1e-9 * scale;
+        return (shape_.project(surface, p) - p).norm() <= on_surface * scale;
     }
 
     /// The triangle of the face that the point is over, or nothing.
@@ -94,19 +117,42 @@ class Inserter {
         return best;
     }
 
+    bool lies_on_both_sides(Edge e, const FacePoint& wanted) const {
+        return std::ranges::all_of(faces_of(e), [&](std::uint32_t face) {
+            return face == wanted.face || lies_on(face, wanted.point, mesh_.calc_edge_length(e));
+        });
+    }
+
+    /// Splits the edge in its middle, or where its surfaces are nearest to that.
+    bool divide(Edge e) {
+        const Point middle = mesh_.calc_edge_midpoint(e);
+        const auto [first, second] = faces_of(e);
+        const auto place =
+            nearest_common_point(std::array{ShapeFace{&shape_, first}, ShapeFace{&shape_, second}}, middle,
+                                 mesh_.calc_edge_length(e));
+        const Vertex added = place ? split(e, *place) : Vertex();
+        if (added.is_valid()) improve_around(added);
+        return added.is_valid();
+    }
+
+    /// Halves the edges at a vertex: that alone was not enough.
+    void refine_around(Vertex v) {
+        std::vector<Edge> edges;
+        for (const Edge e : mesh_.ve_range(v)) edges.push_back(e);
+        for (const Edge e : edges) divide(e);
+    }
+
     /// Both halves of every triangle at the edge must be fit.
-    Vertex split(Edge e, const FacePoint& wanted) {
+    Vertex split(Edge e, const Point& p) {
         for (const int side : {0, 1}) {
             const Halfedge h = mesh_.halfedge_handle(e, side);
             const std::uint32_t on = surface(mesh_.face_handle(h));
-            if (on != wanted.face && !lies_on(on, wanted.point, mesh_.calc_edge_length(e))) return Vertex();
             const Point from = mesh_.point(mesh_.from_vertex_handle(h)),
                         to = mesh_.point(mesh_.to_vertex_handle(h)),
                         apex = mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)));
-            if (!is_aligned(on, {from, wanted.point, apex}) || !is_aligned(on, {wanted.point, to, apex}))
-                return Vertex();
+            if (!is_aligned(on, {from, p, apex}) || !is_aligned(on, {p, to, apex})) return Vertex();
         }
-        return mesh_.split_copy(e, wanted.point);
+        return mesh_.split_copy(e, p);
     }
 
     Vertex split(Face f, const FacePoint& wanted) {

@@ -56,7 +56,9 @@ std::vector<Point> points_of_sphere(const std::vector<Point>& corners, std::vect
         left.push_back({VertexHandle(4 * i), corners[i], {}, {}});
     const std::vector<Operand> operands{operand(std::move(vertices_of_sphere)),
                                         operand(std::move(vertices_of_cube))};
-    const auto all = points_to_meet(sphere_and_cube(), operands, merged, left);
+    const auto found = points_to_meet(sphere_and_cube(), operands, merged, left);
+    CHECK(found.n_vertices == corners.size());
+    const auto& all = found.points;
     CHECK(all[1].empty());  // it has no round face
     std::vector<Point> points;
     for (const FacePoint& each : all[0]) points.push_back(each.point);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -22,6 +23,14 @@ Primitive primitive(std::shared_ptr<const Shape> shape) {
 
 bool has_vertex(const TriMesh& mesh, const Point& p) {
     return std::ranges::any_of(mesh.vertices(), [&](const auto v) { return mesh.point(v) == p; });
+}
+
+/// Edges of the rim at that height of a cylinder of radius 1.
+int edges_of_rim(const TriMesh& mesh, double height) {
+    int count = 0;
+    for (const auto v : mesh.vertices())
+        count += mesh.point(v).z() == height && std::abs(mesh.point(v).head<2>().norm() - 1) < 1e-9;
+    return count;
 }
 
 void check_surface(const TriMesh& mesh, const Shape& shape, int euler) {
@@ -51,8 +60,43 @@ TEST_CASE("points of round faces become vertices, and the tessellation stays one
         for (const FacePoint& point : points) CHECK(has_vertex(mesh, point.point));
         CHECK(mesh.n_vertices() == before + points.size());
         check_surface(mesh, *shape, euler);
-        insert_points(mesh, *shape, points);
-        CHECK(mesh.n_vertices() == before + points.size());
+    }
+}
+
+TEST_CASE(
+    "a point that is given again halves the edges there, and the triangles come nearer to the surface") {
+    for (const auto& shape : {make_sphere(1), make_cylinder(2, 1, 1, true), make_torus(1, 0.4)}) {
+        const Point p = shape->project(0, Point(0.7, 0.4, 0.2));
+        const int euler = test::measure(tessellate(primitive(shape), 0.4), *shape).euler;
+        std::vector<FacePoint> points;
+        double before = 0;
+        for (int times = 1; times <= 4; ++times) {
+            points.push_back({0, p});
+            TriMesh mesh = tessellate(primitive(shape), 0.4);
+            insert_points(mesh, *shape, points);
+            check_surface(mesh, *shape, euler);
+            CHECK(has_vertex(mesh, p));
+            double depth = 0;  // of the triangles at the point below the surface
+            for (const auto f : mesh.faces())
+                if (std::ranges::any_of(mesh.fv_range(f), [&](const auto v) { return mesh.point(v) == p; }))
+                    depth = std::max(depth, std::abs(shape->implicit(mesh.calc_face_centroid(f))));
+            if (times > 1) CHECK(depth < 0.5 * before);
+            before = depth;
+        }
+    }
+}
+
+TEST_CASE("a point between a rim's straight edge and the rim divides that edge first") {
+    const auto shape = make_cylinder(2, 1, 1, false);
+    const TriMesh before = tessellate(primitive(shape), 0.8);
+    // Of the rim of the cap, where it is farthest from the edges.
+    const double angle = std::numbers::pi / static_cast<double>(edges_of_rim(before, 2));
+    for (const Point& p : {Point(0.97 * std::cos(angle), 0.97 * std::sin(angle), 2),
+                           Point(std::cos(angle), std::sin(angle), 1.95)}) {
+        TriMesh mesh = before;
+        insert_points(mesh, *shape, std::vector<FacePoint>{{p.z() == 2 ? 2U : 0U, p}});
+        CHECK(has_vertex(mesh, p));
+        check_surface(mesh, *shape, 2);
     }
 }
 
