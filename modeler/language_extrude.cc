@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,15 +33,43 @@ bool has_round_circle(const std::vector<Node>& nodes, const std::string& file, F
     });
 }
 
-/// One solid for each region.
+/// The holes of a region that have a corner in common with its outline or with a hole before them. A solid
+/// with such holes would touch itself along an edge; it can be cut from one without them.
+std::vector<std::size_t> touching_holes(const PlaneRegion& region) {
+    const auto coordinates = [](const Point2& p) { return std::pair(p.x(), p.y()); };
+    std::set<std::pair<double, double>> corners;
+    std::vector<std::size_t> touching;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+        if (std::ranges::any_of(region[i], [&](const Point2& p) { return corners.contains(coordinates(p)); }))
+            touching.push_back(i);
+        for (const Point2& p : region[i]) corners.insert(coordinates(p));
+    }
+    return touching;
+}
+
+/// A solid for each region.
 template <class Extrude>
 ShapeTree solids_of(const Arguments& arguments, const Outline& outline, const Extrude& extrude) {
     ShapeTree solids{.operation = Operation::join, .shape = nullptr};
     std::size_t first_side = 0;
-    for (const PlaneRegion& region : outline) {
-        solids.children.push_back({.operation = Operation::leaf,
-                                   .shape = at_node(arguments, [&] { return extrude(region, first_side); })});
+    const auto solid = [&](const PlaneRegion& region) {
+        ShapeTree leaf{.operation = Operation::leaf,
+                       .shape = at_node(arguments, [&] { return extrude(region, first_side); })};
         for (const PlaneLoop& loop : region) first_side += loop.size();
+        return leaf;
+    };
+    for (PlaneRegion region : outline) {
+        std::vector<PlaneRegion> cut;
+        for (const std::size_t hole : touching_holes(region)) {
+            PlaneLoop& loop = region[hole];
+            cut.push_back({PlaneLoop(loop.rbegin(), loop.rend())});
+            loop.clear();
+        }
+        std::erase(region, PlaneLoop());
+        ShapeTree difference{.operation = Operation::difference, .shape = nullptr};
+        difference.children.push_back(solid(region));
+        for (const PlaneRegion& hole : cut) difference.children.push_back(solid(hole));
+        solids.children.push_back(std::move(difference));
     }
     return solids;
 }

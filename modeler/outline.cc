@@ -7,6 +7,9 @@
 
 #include <polyclipping/clipper.hpp>
 
+#include "modeler/outline_snap.hh"
+#include "modeler/outline_split.hh"
+
 namespace maille::modeler {
 namespace {
 
@@ -92,6 +95,28 @@ Outline clip(Grid& grid, ClipperLib::ClipType type, const Outline& subject, std:
     return grid.outline(tree);
 }
 
+/// What is nearer than that to each other in shapes meets, so that six digits are enough to write what is
+/// flush: relative to the diagonal of them all.
+constexpr double written_precision = 1e-5;
+
+std::vector<Outline> made_flush(std::span<const Outline> shapes) {
+    Eigen::AlignedBox2d box;
+    for (const Outline& shape : shapes)
+        for (const PlaneRegion& region : shape)
+            for (const PlaneLoop& loop : region)
+                for (const Point2& p : loop) box.extend(p);
+    if (box.isEmpty()) return {shapes.begin(), shapes.end()};
+    return snapped(shapes, written_precision * box.diagonal().norm());
+}
+
+/// Without crossings so near to each other that rounding would make one of them.
+Outline tidied(const Outline& shape) {
+    const std::vector<Outline> flush = made_flush(std::span(&shape, 1));
+    Grid grid(flush);
+    const Outline united = clip(grid, ClipperLib::ctUnion, flush.front(), {});
+    return split_where_touching(made_flush(std::span(&united, 1)).front());
+}
+
 double cross(const Point2& origin, const Point2& a, const Point2& b) {
     const Point2 u = a - origin, v = b - origin;
     return u.x() * v.y() - u.y() * v.x();
@@ -101,25 +126,27 @@ double cross(const Point2& origin, const Point2& a, const Point2& b) {
 
 Outline make_outline(const std::vector<PlaneLoop>& loops) {
     const Outline crossing{loops};
-    Grid grid(std::span(&crossing, 1));
-    return clip(grid, ClipperLib::ctUnion, crossing, {}, ClipperLib::pftEvenOdd);
+    const std::vector<Outline> flush = made_flush(std::span(&crossing, 1));
+    Grid grid(flush);
+    return tidied(clip(grid, ClipperLib::ctUnion, flush.front(), {}, ClipperLib::pftEvenOdd));
 }
 
 Outline combine(Operation operation, std::span<const Outline> shapes) {
     if (shapes.empty()) return {};
-    Grid grid(shapes);
-    const std::span<const Outline> others = shapes.subspan(1);
+    const std::vector<Outline> flush = made_flush(shapes);
+    Grid grid(flush);
+    const std::span<const Outline> others = std::span(flush).subspan(1);
     switch (operation) {
         case Operation::intersection: {
-            Outline result = shapes.front();
+            Outline result = flush.front();
             for (const Outline& other : others)
                 result = clip(grid, ClipperLib::ctIntersection, result, std::span(&other, 1));
-            return result;
+            return tidied(result);
         }
         case Operation::difference:
-            return clip(grid, ClipperLib::ctDifference, shapes.front(), others);
+            return tidied(clip(grid, ClipperLib::ctDifference, flush.front(), others));
         default:
-            return clip(grid, ClipperLib::ctUnion, shapes.front(), others);
+            return tidied(clip(grid, ClipperLib::ctUnion, flush.front(), others));
     }
 }
 
@@ -143,7 +170,7 @@ Outline offset(const Outline& shape, double distance, OffsetCorners corners, dou
     offsetter.AddPaths(grid.paths(shape), join, ClipperLib::etClosedPolygon);
     ClipperLib::PolyTree tree;
     offsetter.Execute(tree, grid.in_steps(distance));
-    return grid.outline(tree);
+    return tidied(grid.outline(tree));
 }
 
 /// By Andrew's monotone chain.

@@ -14,7 +14,8 @@ using Point2 = Eigen::Vector2d;
 /// A closed polygon by its corners.
 using PlaneLoop = std::vector<Point2>;
 
-/// A connected piece of the plane: its outline, counter-clockwise, then its holes, clockwise.
+/// A connected piece of the plane: its outline, counter-clockwise, then its holes, clockwise. A loop passes
+/// each corner once, but loops may have corners in common.
 using PlaneRegion = std::vector<PlaneLoop>;
 
 /// A flat shape: regions that don't overlap.
@@ -23,8 +24,10 @@ using Outline = std::vector<PlaneRegion>;
 /// What is inside an odd number of the loops, which may cross.
 Outline make_outline(const std::vector<PlaneLoop>& loops);
 
-/// Union, intersection, or the first without the others (`operation` is one of these). Corners of the shapes
-/// keep their coordinates to the bit; those where edges cross are right to about 1e-15 of the greatest.
+/// Union, intersection, or the first without the others (`operation` is one of these). Corners that are
+/// nearer to each other, or to an edge, than 1e-5 of the shapes' diagonal meet: what six digits left between
+/// shapes that are meant to be flush. Other corners keep their coordinates to the bit; those where edges
+/// cross are right to about 1e-15 of the greatest.
 Outline combine(Operation operation, std::span<const Outline> shapes);
 
 /// Affine image; the map must not be singular.
