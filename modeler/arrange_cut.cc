@@ -101,7 +101,7 @@ class PlaneCutter {
             const auto points = lines_.points(line);
             for (std::size_t i = 0; i + 1 < points.size(); ++i) {
                 const auto a = points[i], b = points[i + 1];
-                triangulation_.insert_constraint(vertex(a), vertex(b));
+                constrain(vertex(a), vertex(b));
                 if (line >= rims_of_line_.size()) continue;
                 auto& rims = rims_[edge_key(a, b)];
                 // The line itself rises from its first point to its last.
@@ -177,6 +177,17 @@ class PlaneCutter {
         }
         latest_ = at->second;
         return at->second;
+    }
+
+    /// Spares the general way, which computes exactly whether points of one line lie on it, where there is
+    /// that edge already.
+    void constrain(Triangulation::Vertex_handle a, Triangulation::Vertex_handle b) {
+        Face face;
+        int k = 0;
+        if (!triangulation_.is_edge(a, b, face, k)) return triangulation_.insert_constraint(a, b);
+        const Face beyond = face->neighbor(k);
+        beyond->set_constraint(triangulation_.mirror_index(face, k), true);
+        face->set_constraint(k, true);
     }
 
     /// The triangles that are reached without crossing a segment: the next part.

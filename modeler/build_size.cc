@@ -34,6 +34,7 @@ std::vector<EdgeLengths> edge_lengths(std::span<const ClosedSurface> tessellated
 SurfaceSize::SurfaceSize(const Model& model, std::vector<double> sizes,
                          std::span<const ClosedSurface> tessellated)
     : sizes_(std::move(sizes)), largest_(std::ranges::max(sizes_)) {
+    std::vector<Eigen::AlignedBox3d> reaches;  // where surfaces may matter
     const std::vector<ModelSurface> numbered = surfaces(model);
     const std::vector<EdgeLengths> lengths = edge_lengths(tessellated, numbered.size());
     for (std::size_t s = 0; s < numbered.size(); ++s) {
@@ -41,23 +42,26 @@ SurfaceSize::SurfaceSize(const Model& model, std::vector<double> sizes,
         if (primitive.shape->faces()[numbered[s].face].planar || lengths[s].count == 0) continue;
         const double size = lengths[s].mean();
         if (size > 0.8 * largest_) continue;
-        Eigen::AlignedBox3d reach = primitive.shape->bounding_box();
+        const Eigen::AlignedBox3d box = primitive.shape->bounding_box();
         const double margin = (largest_ - size) / growth;
-        reach = {reach.min().array() - margin, reach.max().array() + margin};
-        fine_.push_back({primitive.shape, numbered[s].face, size, reach});
+        reaches.emplace_back(box.min().array() - margin, box.max().array() + margin);
+        fine_.push_back({primitive.shape, numbered[s].face, size, box});
     }
+    reaches_ = std::make_shared<const detail::BoxTree>(reaches);
 }
 
 double SurfaceSize::operator()(const Eigen::Vector3d& p, Region front, Region back) const {
     double size = largest_;
     for (const Region region : {front, back})
         if (region >= 0) size = std::min(size, sizes_[region]);
-    for (const FineSurface& fine : fine_) {
-        if (size <= fine.size || !fine.reach.contains(p)) continue;
+    reaches_->visit_box({p, p}, [&](std::uint32_t i) {
+        const FineSurface& fine = fine_[i];
+        const double beyond = fine.box.exteriorDistance(p);
+        if (size <= fine.size + growth * beyond) return true;
         const double distance = std::abs(fine.shape->face_implicit(fine.face, p));
-        const double beyond = fine.shape->bounding_box().exteriorDistance(p);
         size = std::min(size, fine.size + growth * std::max(distance, beyond));
-    }
+        return true;
+    });
     return size;
 }
 

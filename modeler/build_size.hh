@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "modeler/arrange.hh"
+#include "modeler/arrange_box_tree.hh"
 #include "modeler/model.hh"
 
 namespace maille::modeler {
@@ -26,12 +27,13 @@ class SurfaceSize {
         std::shared_ptr<const Shape> shape;
         std::uint32_t face;
         double size;
-        Eigen::AlignedBox3d reach;  ///< where it may matter
+        Eigen::AlignedBox3d box;
     };
 
     std::vector<double> sizes_;
     double largest_;
     std::vector<FineSurface> fine_;
+    std::shared_ptr<const detail::BoxTree> reaches_;  ///< where they may matter
 };
 
 }  // namespace maille::modeler

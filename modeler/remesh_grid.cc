@@ -43,9 +43,9 @@ std::size_t TriangleGrid::bucket_of(const Cell& cell) const {
     return hash & (buckets_.size() - 1);
 }
 
-void TriangleGrid::buckets_of(const Corners& corners, std::vector<std::size_t>& buckets) const {
+void TriangleGrid::buckets_of(const Corners& corners, Buckets& buckets) const {
     // A long triangle crosses few of the cells of its box: halve it until each piece has a small box.
-    std::vector<Corners> pieces{corners};
+    boost::container::small_vector<Corners, 8> pieces{corners};
     while (!pieces.empty()) {
         const auto [a, b, c] = pieces.back();
         pieces.pop_back();
@@ -78,7 +78,7 @@ void TriangleGrid::buckets_of(const Corners& corners, std::vector<std::size_t>& 
 
 void TriangleGrid::insert(Index triangle, const Corners& corners) {
     if (buckets_.empty()) return;
-    std::vector<std::size_t> buckets;
+    Buckets buckets;
     buckets_of(corners, buckets);
     sort_unique(buckets);
     for (const std::size_t bucket : buckets) buckets_[bucket].push_back(triangle);
@@ -91,7 +91,7 @@ void TriangleGrid::insert(Index triangle, const Corners& corners) {
 
 void TriangleGrid::erase(Index triangle, const Corners& corners) {
     if (buckets_.empty()) return;
-    std::vector<std::size_t> buckets;
+    Buckets buckets;
     buckets_of(corners, buckets);
     sort_unique(buckets);
     for (const std::size_t bucket : buckets) {
@@ -101,7 +101,7 @@ void TriangleGrid::erase(Index triangle, const Corners& corners) {
     }
 }
 
-void TriangleGrid::collect(const std::vector<std::size_t>& buckets, const Eigen::AlignedBox3d& box,
+void TriangleGrid::collect(const Buckets& buckets, const Eigen::AlignedBox3d& box,
                            std::vector<Index>& found) const {
     ++calls_;
     for (const std::size_t bucket : buckets)
@@ -112,13 +112,13 @@ void TriangleGrid::collect(const std::vector<std::size_t>& buckets, const Eigen:
 
 void TriangleGrid::collect(const Corners& corners, std::vector<Index>& found) const {
     if (buckets_.empty()) return;
-    std::vector<std::size_t> buckets;
+    Buckets buckets;
     buckets_of(corners, buckets);
     collect(buckets, box_of(corners), found);
 }
 
 void TriangleGrid::collect(const Eigen::AlignedBox3d& box, std::vector<Index>& found) const {
-    std::vector<std::size_t> buckets;
+    Buckets buckets;
     const Vec3 cells = box.sizes() / cell_;
     if ((cells.x() + 1) * (cells.y() + 1) * (cells.z() + 1) > static_cast<double>(buckets_.size())) {
         for (std::size_t bucket = 0; bucket < buckets_.size(); ++bucket) buckets.push_back(bucket);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <boost/container/small_vector.hpp>
 
 namespace maille::modeler::remeshing {
 
@@ -32,14 +33,14 @@ class TriangleGrid {
     void collect(const Eigen::AlignedBox3d& box, std::vector<Index>& found) const;
 
   private:
+    using Buckets = boost::container::small_vector<std::size_t, 64>;
     using Cell = std::array<std::int64_t, 3>;
 
     Cell cell_of(const Vec3& p) const;
     std::size_t bucket_of(const Cell& cell) const;
     /// The buckets that the triangle falls into, some several times.
-    void buckets_of(const Corners& corners, std::vector<std::size_t>& buckets) const;
-    void collect(const std::vector<std::size_t>& buckets, const Eigen::AlignedBox3d& box,
-                 std::vector<Index>& found) const;
+    void buckets_of(const Corners& corners, Buckets& buckets) const;
+    void collect(const Buckets& buckets, const Eigen::AlignedBox3d& box, std::vector<Index>& found) const;
 
     double cell_ = 1;
     std::vector<std::vector<Index>> buckets_;

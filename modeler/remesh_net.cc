@@ -164,15 +164,16 @@ std::vector<Index> Net::feature_neighbours(Index v) const {
 
 std::vector<std::array<Index, 2>> Net::edges() const {
     std::vector<std::array<Index, 2>> all;
-    all.reserve(triangles_.size() * 3);
-    for (const Triangle& triangle : triangles_) {
-        if (triangle.patch == none) continue;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto [low, high] = std::minmax(triangle.vertices[i], triangle.vertices[(i + 1) % 3]);
-            all.push_back({low, high});
-        }
+    all.reserve(triangles_.size() * 3 / 2);
+    std::vector<Index> higher;
+    for (Index v = 0; v < n_vertices(); ++v) {
+        higher.clear();
+        for (const Index t : around_[v])
+            for (const Index w : triangles_[t].vertices)
+                if (w > v) higher.push_back(w);
+        sort_unique(higher);
+        for (const Index w : higher) all.push_back({v, w});
     }
-    sort_unique(all);
     return all;
 }
 

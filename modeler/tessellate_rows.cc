@@ -36,6 +36,12 @@ Circumference::Circumference(const Eigen::Affine3d& map, const Sizing& sizing, d
     constexpr double slack = 1e-4;
     is_circle_ = std::abs(x_.squaredNorm() - y_.squaredNorm()) < slack * x_.squaredNorm() &&
                  std::abs(x_.dot(y_)) < slack * x_.squaredNorm();
+    if (is_circle_) {
+        const double in_space = radius * std::sqrt(x_.cross(y_).norm());
+        length_.back() = 2 * std::numbers::pi * in_space;
+        steps_.back() = length_.back() / sizing.for_curvature(1 / in_space);
+        return;
+    }
     for (int i = 0; i < samples; ++i) {
         const Eigen::Vector2d u = unit_circle(2 * i + 1, 2 * samples);
         const double speed = (u.x() * y_ - u.y() * x_).norm();
