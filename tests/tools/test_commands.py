@@ -63,6 +63,36 @@ class Mesh(MailleCase):
         self.assertAlmostEqual(cells["steel"], info["volume"], 9)
         self.maille("validate", "plate.vtu")
 
+    def test_vertices_short_of_their_surfaces(self):
+        holes = {f"hole{i}": (1 + 2 * i, 0.3 + 0.05 * i) for i in range(7)}  # place along x, radius
+        solids = "".join(f'name("{name}") translate([{x}, 1, -1]) cylinder(h = 3, r = {r:.2f}); '
+                         for name, (x, r) in holes.items())
+        model = self.model("difference() { cube([14, 2, 1]); " + solids + "}")
+        # No move is good enough for such elements.
+        done = self.run_maille("mesh", model, "--size", "0.5", "--refine", "0.3", "--ratio", "1.2", "--min-shape", "1",
+                               "--max-iterations", "1", "--no-improve", "-o", "holes.vtu")
+        self.assertEqual(done.returncode, 0)
+        total = int(re.search(r"^\d+ vert(?:ex|ices) moved onto their surfaces, (\d+) short of them$", done.stdout,
+                              re.MULTILINE).group(1))
+        told = [line for line in done.stderr.splitlines() if " short of " in line]
+        self.assertEqual(len(told), 1)
+        *groups, rest = told[0].removeprefix("maille: warning: ").split("; ")
+        self.assertEqual(len(groups), 5)
+        counts = []
+        for group in groups:
+            count, verb, surfaces, distance, place = re.fullmatch(
+                r"(\d+) (vertex is|vertices are) short of (.*), the farthest by (\S+) at \((.*)\)", group).groups()
+            counts.append(int(count))
+            self.assertEqual(verb, "vertex is" if count == "1" else "vertices are")
+            x, y, z = map(float, place.split(", "))
+            *flat, side = surfaces.split(" and ")
+            axis, radius = holes[side.removesuffix("/side")]
+            self.assertEqual(flat, {0: ["cube1/z-"], 1: ["cube1/z+"]}.get(z, []))
+            self.assertAlmostEqual(float(distance), abs(math.hypot(x - axis, y - 1) - radius), 3)
+        self.assertEqual(counts, sorted(counts, reverse=True))
+        self.assertEqual(rest, f"and {total - sum(counts)} more vertices of others")
+        self.assertGreater(total, sum(counts))
+
     def test_improvement(self):
         model = self.model(PLATE)
         for refined in ((), ("--refine", "0.1+0.1*x")):
