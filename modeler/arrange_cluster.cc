@@ -5,7 +5,7 @@
 
 #include "modeler/arrange_cut.hh"
 #include "modeler/arrange_scene.hh"
-#include "modeler/arrange_union_find.hh"
+#include "volmesh/union_find.hh"
 
 namespace maille::modeler::detail {
 
@@ -98,7 +98,7 @@ class ClusterFinder {
     const FacetComplex& complex_;
     const ExactPositions& positions_;
     const Contacts& contacts_;
-    UnionFind groups_;
+    volmesh::UnionFind groups_;
     std::vector<bool> touched_;
     std::vector<std::uint64_t> dissolved_;
 };

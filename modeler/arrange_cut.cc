@@ -13,7 +13,7 @@
 
 #include "modeler/arrange_lines.hh"
 #include "modeler/arrange_scene.hh"
-#include "modeler/arrange_union_find.hh"
+#include "volmesh/union_find.hh"
 
 namespace maille::modeler::detail {
 
@@ -147,7 +147,7 @@ class PlaneCutter {
     std::vector<std::uint32_t> join_facets(std::span<const std::uint64_t> dissolved,
                                            std::span<const int> sides,
                                            std::vector<std::uint64_t>& joints) const {
-        UnionFind joined(facets_.size());
+        volmesh::UnionFind joined(facets_.size());
         std::unordered_map<std::uint64_t, std::uint32_t> first_at;
         for (std::uint32_t i = 0; i < facets_.size(); ++i) {
             const auto& v = complex_.facets[facets_[i]].vertices;

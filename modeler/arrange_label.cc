@@ -9,7 +9,7 @@
 #include "modeler/arrange_filter.hh"
 #include "modeler/arrange_ray.hh"
 #include "modeler/arrange_scene.hh"
-#include "modeler/arrange_union_find.hh"
+#include "volmesh/union_find.hh"
 
 namespace maille::modeler::detail {
 
@@ -23,7 +23,7 @@ bool same_covers(std::span<const Cover> a, std::span<const Cover> b) {
 
 /// Joins sheets that go on as one surface, with nothing else at the edge between them: they separate the same
 /// cells.
-UnionFind find_patches(const Subdivision& subdivision) {
+volmesh::UnionFind find_patches(const Subdivision& subdivision) {
     struct Use {
         std::uint64_t edge;
         std::uint32_t sheet;
@@ -38,7 +38,7 @@ UnionFind find_patches(const Subdivision& subdivision) {
             uses.push_back({edge_key(a, b), piece.sheet, a < b});
         }
     std::ranges::sort(uses);
-    UnionFind patches(subdivision.sheets.size());
+    volmesh::UnionFind patches(subdivision.sheets.size());
     for (std::size_t i = 0; i < uses.size();) {
         std::size_t end = i;
         while (end < uses.size() && uses[end].edge == uses[i].edge) ++end;
@@ -163,7 +163,7 @@ class Labeller {
 std::vector<Sides> label_sheets(const Subdivision& subdivision, const FacetComplex& scene,
                                 const ExactPositions& positions, const PointRegistry& registry,
                                 const CsgTree& tree) {
-    UnionFind patches = find_patches(subdivision);
+    volmesh::UnionFind patches = find_patches(subdivision);
     std::vector<Sides> sides(subdivision.sheets.size(), {outside, outside});
     std::vector<bool> done(subdivision.sheets.size(), false);
     Labeller labeller(subdivision, scene, positions, registry, tree);

@@ -20,7 +20,7 @@ using volmesh::VertexHandle;
 constexpr double least_shape = 0.0005;
 
 std::vector<VertexSupport> supports_of_new_vertices(const Merged& merged) {
-    const auto first = static_cast<std::uint32_t>(merged.kept_vertices.size());
+    const auto first = merged.kept_vertices.size();
     std::vector<volmesh::Surfaces> surfaces(merged.mesh.n_vertices() - first);
     for (const InterfaceFace& face : merged.faces)
         for (const VertexHandle v : merged.mesh.halfface_vertices(face.face))
@@ -70,7 +70,7 @@ quality::ProjectionResult project(TetMesh& mesh, const volmesh::Projector& proje
 
 quality::ProjectionResult project_new_vertices(Merged& merged, const volmesh::Projector& projector) {
     TetMesh& mesh = merged.mesh;
-    const auto n_kept = static_cast<std::uint32_t>(merged.kept_vertices.size());
+    const auto n_kept = merged.kept_vertices.size();
     const std::vector<volmesh::Point> before(mesh.points().begin(), mesh.points().end());
     std::vector<VertexSupport> supports = supports_of_new_vertices(merged), left;
     quality::ProjectionResult result;

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "modeler/arrange_union_find.hh"
 #include "modeler/shape_plane.hh"
 #include "modeler/shape_polyhedron.hh"
+#include "volmesh/union_find.hh"
 
 namespace maille::modeler {
 namespace {
@@ -132,7 +132,7 @@ class Merger {
     void name(std::vector<PolyhedronFace>& faces, std::span<const Point> normals,
               std::span<const std::uint32_t> face_of) const {
         constexpr double cos_of_crease = 0.866025403784438647;  // 30 degrees
-        detail::UnionFind patches(faces.size());
+        volmesh::UnionFind patches(faces.size());
         for (std::uint32_t t = 0; t < triangles_.size(); ++t)
             for_each_neighbour(t, [&](std::uint32_t other) {
                 if (normals[face_of[t]].dot(normals[face_of[other]]) > cos_of_crease)

@@ -47,11 +47,12 @@ volmesh::TetMesh merge(std::span<const volmesh::TetMesh> meshes, const CsgTree& 
     const PhaseTimer timer(told.merge);
     if (meshes.empty()) throw InputError("there are no meshes to merge");
     if (options.size < 0) throw InputError(fmt::format("the size has to be positive, not {}", options.size));
-    const MeshRegions regions = take_apart(meshes, tree, options.size);
-    Merged merged =
-        merge_operands(regions.operands, regions.tree, planar_geometry(regions),
-                       static_cast<std::uint32_t>(regions.surfaces.size()),
-                       {.keep_cells = options.keep_cells, .time_limit = options.time_limit}, told.warnings);
+    MeshRegions regions = take_apart(meshes, tree, options.size);
+    Merged merged = merge_operands(
+        regions.operands, regions.tree, planar_geometry(regions),
+        static_cast<std::uint32_t>(regions.surfaces.size()),
+        {.keep_cells = options.keep_cells, .time_limit = options.time_limit, .may_take_mesh = true},
+        told.warnings);
     told.kept_cells = merged.kept_cells.size();
     told.new_cells = merged.mesh.n_cells() - told.kept_cells;
     carry_sets_over(meshes, regions, merged);

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <optional>
 #include <utility>
 
-#include <Eigen/Geometry>
 #include <fmt/core.h>
 
+#include "modeler/merge_verify.hh"
 #include "modeler/point_index.hh"
-#include "modeler/tetrahedralize_check.hh"
 #include "modeler/triple.hh"
+#include "volmesh/cell_exchange.hh"
 #include "volmesh/error.hh"
-#include "volmesh/measure.hh"
 
 namespace maille::modeler {
 namespace {
@@ -35,12 +33,13 @@ struct NamedTriple {
 class KeptNumbers {
   public:
     KeptNumbers(const std::vector<std::uint8_t>& kept, std::uint32_t first)
-        : blocks_((kept.size() + 63) / 64), end_(first) {
+        : blocks_((kept.size() + 63) / 64) {
+        std::uint32_t next = first;
         for (std::size_t c = 0; c < kept.size(); ++c) {
             Block& block = blocks_[c / 64];
-            if (c % 64 == 0) block.first = end_;
+            if (c % 64 == 0) block.first = next;
             block.marks |= std::uint64_t{kept[c]} << c % 64;
-            end_ += kept[c];
+            next += kept[c];
         }
     }
     /// Nothing where the cell is not kept.
@@ -50,7 +49,6 @@ class KeptNumbers {
         if (from_here >> 63U == 0) return std::nullopt;
         return block.first + static_cast<std::uint32_t>(std::popcount(from_here)) - 1;
     }
-    std::uint32_t end() const { return end_; }
 
   private:
     struct Block {
@@ -58,42 +56,25 @@ class KeptNumbers {
         std::uint32_t first = 0;  ///< number of its first kept cell
     };
     std::vector<Block> blocks_;
-    std::uint32_t end_;
 };
 
+/// The base, of which the most cells are kept, is edited. Until that is done, its vertices have the numbers
+/// that they had and further ones are numbered on from these.
 class Gluer {
   public:
-    /// The kept cells of an operand, and how they lie beside each other.
-    void add_kept(std::uint32_t number, const Operand& operand, const std::vector<std::uint8_t>& kept) {
-        const TetMesh& mesh = operand.mesh;
-        const std::vector<std::uint8_t> may_meet_others = meeting_vertices(operand, kept);
-        const KeptNumbers cell_numbers(kept, static_cast<std::uint32_t>(cells_.size()));
-        merged_.regions.resize(cell_numbers.end(), number);
-        merged_.kept_cells.reserve(cell_numbers.end());
-        auto next = static_cast<std::uint32_t>(cells_.size());
-        cells_.grow(cell_numbers.end());
-        std::vector<std::uint32_t> numbers(mesh.n_vertices(), unnumbered);
-        for (const CellHandle c : mesh.cells()) {
-            if (!kept[c.idx()]) continue;
-            TetMesh::Cell& cell = cells_[next++];
-            for (int k = 0; k < 4; ++k) {
-                const VertexHandle v = mesh.cell_vertex(c, k);
-                if (numbers[v.idx()] == unnumbered) {
-                    const Eigen::Vector3d& p = mesh.point(v);
-                    numbers[v.idx()] = may_meet_others[v.idx()] ? number_at(p) : add_point(p);
-                    if (merged_.kept_vertices.size() < points_.size())
-                        merged_.kept_vertices.push_back({number, v.idx()});
-                }
-                cell.vertices[k] = numbers[v.idx()];
-                cell.neighbors[k] = TetMesh::none;
-                const HalffaceHandle beyond = mesh.opposite_halfface_handle(TetMesh::halfface(c, k));
-                if (!beyond.is_valid()) continue;
-                if (const auto neighbor = cell_numbers.find(TetMesh::incident_cell(beyond).idx()))
-                    cell.neighbors[k] =
-                        TetMesh::halfface(CellHandle(*neighbor), TetMesh::local_face(beyond)).idx();
-            }
-            merged_.kept_cells.push_back({number, c.idx()});
-        }
+    Gluer(std::span<Operand> operands, std::span<const KeptPart> kept, bool may_take_mesh)
+        : base_(static_cast<std::uint32_t>(std::ranges::max_element(kept, {}, &KeptPart::n_cells) -
+                                           kept.begin())),
+          base_part_(kept[base_]) {
+        if (TetMesh& mesh = operands[base_].mesh; base_part_.n_cells > 0)
+            merged_.mesh = may_take_mesh ? std::exchange(mesh, {}) : mesh;
+        n_base_vertices_ = merged_.mesh.n_vertices();
+        n_base_cells_ = merged_.mesh.n_cells();
+        for (const HalffaceHandle side : base_part_.sides)
+            for (const VertexHandle v : merged_.mesh.halfface_vertices(side))
+                places_.insert(merged_.mesh.point(v), v.idx());
+        for (std::uint32_t i = 0; i < operands.size(); ++i)
+            if (i != base_ && kept[i].n_cells > 0) add_kept(i, operands[i].mesh, kept[i]);
     }
 
     void add_new(const ComplexMesh& mesh, const FacetComplex& bounds, std::uint32_t shell_surface) {
@@ -111,7 +92,7 @@ class Gluer {
         for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
             const auto& [i, j, k, l] = mesh.cells[c];
             cells_.push_back({{number(i), number(j), number(k), number(l)}, unlinked});
-            merged_.regions.push_back(static_cast<std::uint32_t>(mesh.regions[c]));
+            merged_.regions_of_new.push_back(static_cast<std::uint32_t>(mesh.regions[c]));
         }
         for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
             const auto& [i, j, k] = mesh.facets[f];
@@ -131,103 +112,103 @@ class Gluer {
     }
 
     Merged finish() {
-        merged_.mesh = TetMesh::from_linked_cells(std::move(points_), std::move(cells_));
-        for (const NamedTriple& face : faces_) {
-            const auto& [a, b, c] = face.vertices;
-            HalffaceHandle found =
-                merged_.mesh.find_halfface(VertexHandle(a), VertexHandle(b), VertexHandle(c));
-            if (!found.is_valid()) {
-                const Eigen::Vector3d& p = merged_.mesh.point(VertexHandle(a));
-                throw InputError(fmt::format(
-                    "a triangle of the surface near ({:.6g}, {:.6g}, {:.6g}) is no face of the mesh", p.x(),
-                    p.y(), p.z()));
-            }
-            const HalffaceHandle other = merged_.mesh.opposite_halfface_handle(found);
-            if (other.is_valid()) found = std::min(found, other);
-            merged_.faces.push_back({found, face.surface});
-        }
+        volmesh::ExchangedNumbers numbers =
+            merged_.mesh.exchange_cells({n_base_cells_ > 0 ? base_part_.gone : std::vector<CellHandle>{},
+                                         std::move(points_), std::move(cells_)});
+        for (const NamedTriple& face : faces_)
+            merged_.faces.push_back({face_of(face, numbers), face.surface});
         std::ranges::sort(merged_.faces, {}, &InterfaceFace::face);
+        const std::vector<HalffaceHandle> all_seams = seams(numbers);
+        merged_.kept_cells.base = merged_.kept_vertices.base = base_;
+        merged_.kept_cells.n_base = numbers.n_cells;
+        merged_.kept_cells.moved = std::move(numbers.cells);
+        merged_.kept_vertices.n_base = numbers.n_vertices;
+        merged_.kept_vertices.moved = std::move(numbers.vertices);
+        verify(merged_, all_seams);
         return std::move(merged_);
     }
 
   private:
-    /// By vertex: whether it is on the surface or a cell that is not kept has it, so that other parts may.
-    static std::vector<std::uint8_t> meeting_vertices(const Operand& operand,
-                                                      const std::vector<std::uint8_t>& kept) {
-        std::vector<std::uint8_t> meets(operand.mesh.n_vertices());
-        std::fill_n(meets.begin(), std::min(meets.size(), operand.surface.points.size()), 1);
-        for (std::uint32_t c = 0; c < kept.size(); ++c)
-            if (!kept[c])
-                for (const VertexHandle v : operand.mesh.cell_vertices(CellHandle(c))) meets[v.idx()] = 1;
-        return meets;
+    /// The kept cells of another operand than the base, and how they lie beside each other.
+    void add_kept(std::uint32_t operand, const TetMesh& mesh, const KeptPart& part) {
+        std::vector<bool> may_meet_others(mesh.n_vertices());
+        for (const HalffaceHandle side : part.sides)
+            for (const VertexHandle v : mesh.halfface_vertices(side)) may_meet_others[v.idx()] = true;
+        const KeptNumbers cell_numbers(part.is_kept, static_cast<std::uint32_t>(cells_.size()));
+        const auto number_beyond = [&](HalffaceHandle face) {
+            const auto cell = cell_numbers.find(TetMesh::incident_cell(face).idx());
+            return cell ? TetMesh::halfface(CellHandle(*cell), TetMesh::local_face(face)).idx()
+                        : TetMesh::none;
+        };
+        auto next = static_cast<std::uint32_t>(cells_.size());
+        cells_.grow(cells_.size() + part.n_cells);
+        std::vector<std::uint32_t> numbers(mesh.n_vertices(), unnumbered);
+        for (const CellHandle c : mesh.cells()) {
+            if (!part.is_kept[c.idx()]) continue;
+            TetMesh::Cell& cell = cells_[next++];
+            for (int k = 0; k < 4; ++k) {
+                const VertexHandle v = mesh.cell_vertex(c, k);
+                if (numbers[v.idx()] == unnumbered) {
+                    const Eigen::Vector3d& p = mesh.point(v);
+                    numbers[v.idx()] = may_meet_others[v.idx()] ? number_at(p) : add_point(p);
+                    if (merged_.kept_vertices.further.size() < points_.size())
+                        merged_.kept_vertices.further.push_back({operand, v.idx()});
+                }
+                cell.vertices[k] = numbers[v.idx()];
+                const HalffaceHandle beyond = mesh.opposite_halfface_handle(TetMesh::halfface(c, k));
+                cell.neighbors[k] = beyond.is_valid() ? number_beyond(beyond) : TetMesh::none;
+            }
+            merged_.kept_cells.further.push_back({operand, c.idx()});
+        }
+        for (const HalffaceHandle side : part.sides) further_sides_.push_back(number_beyond(side));
     }
+
+    HalffaceHandle face_of(const NamedTriple& named, const volmesh::ExchangedNumbers& numbers) const {
+        const auto vertex = [&](int k) {
+            const std::uint32_t v = named.vertices[k];
+            return VertexHandle(v < n_base_vertices_ ? numbers.vertex(v)
+                                                     : v - n_base_vertices_ + numbers.n_vertices);
+        };
+        const HalffaceHandle found = merged_.mesh.find_halfface(vertex(0), vertex(1), vertex(2));
+        if (!found.is_valid()) {
+            const Eigen::Vector3d& p = merged_.mesh.point(vertex(0));
+            throw InputError(
+                fmt::format("a triangle of the surface near ({:.6g}, {:.6g}, {:.6g}) is no face of the mesh",
+                            p.x(), p.y(), p.z()));
+        }
+        const HalffaceHandle other = merged_.mesh.opposite_halfface_handle(found);
+        return other.is_valid() ? std::min(found, other) : found;
+    }
+
+    std::vector<HalffaceHandle> seams(const volmesh::ExchangedNumbers& numbers) const {
+        std::vector<HalffaceHandle> seams;
+        for (const HalffaceHandle side : base_part_.sides)
+            seams.push_back(TetMesh::halfface(CellHandle(numbers.cell(TetMesh::incident_cell(side).idx())),
+                                              TetMesh::local_face(side)));
+        for (const std::uint32_t side : further_sides_) seams.emplace_back(4 * numbers.n_cells + side);
+        return seams;
+    }
+
     std::uint32_t add_point(const Eigen::Vector3d& p) {
         points_.push_back(p);
-        return static_cast<std::uint32_t>(points_.size() - 1);
+        return n_base_vertices_ + static_cast<std::uint32_t>(points_.size() - 1);
     }
     std::uint32_t number_at(const Eigen::Vector3d& p) {
-        const auto next = static_cast<std::uint32_t>(points_.size());
+        const auto next = n_base_vertices_ + static_cast<std::uint32_t>(points_.size());
         const std::uint32_t number = places_.insert(p, next);
         return number == next ? add_point(p) : number;
     }
 
+    std::uint32_t base_;  ///< operand
+    const KeptPart& base_part_;
+    std::uint32_t n_base_vertices_, n_base_cells_;
     Merged merged_;
-    std::vector<Eigen::Vector3d> points_;
+    std::vector<Eigen::Vector3d> points_;  ///< further ones than the base's
     volmesh::Column<TetMesh::Cell> cells_;
+    std::vector<std::uint32_t> further_sides_;  ///< half-faces of `cells_`
     std::vector<NamedTriple> faces_;
     PointIndex places_;
 };
-
-Region region_beyond(const Merged& merged, HalffaceHandle face) {
-    const HalffaceHandle other = merged.mesh.opposite_halfface_handle(face);
-    return other.is_valid() ? static_cast<Region>(merged.regions[TetMesh::incident_cell(other).idx()])
-                            : outside;
-}
-
-Region region_within(const Merged& merged, HalffaceHandle face) {
-    return static_cast<Region>(merged.regions[TetMesh::incident_cell(face).idx()]);
-}
-
-void require_named_faces(const Merged& merged) {
-    std::size_t n = 0;
-    for (const HalffaceHandle face : merged.mesh.halffaces()) {
-        const HalffaceHandle other = merged.mesh.opposite_halfface_handle(face);
-        if (other.is_valid() && (other < face || region_within(merged, face) == region_beyond(merged, face)))
-            continue;
-        if (n == merged.faces.size() || merged.faces[n].face != face) {
-            const Eigen::Vector3d& p = merged.mesh.point(merged.mesh.halfface_vertices(face)[0]);
-            throw InputError(fmt::format(
-                "a face on the boundary or between regions lies on no surface, near ({:.6g}, {:.6g}, {:.6g})",
-                p.x(), p.y(), p.z()));
-        }
-        ++n;
-    }
-    if (n != merged.faces.size()) throw InputError("a surface runs through the inside of a region");
-}
-
-void require_volumes(const Merged& merged) {
-    FacetComplex surface;
-    surface.points.assign(merged.mesh.points().begin(), merged.mesh.points().end());
-    for (const InterfaceFace& face : merged.faces) {
-        Facet facet{{}, face.surface, region_beyond(merged, face.face), region_within(merged, face.face)};
-        const auto vertices = merged.mesh.halfface_vertices(face.face);
-        for (int k = 0; k < 3; ++k) facet.vertices[k] = vertices[k].idx();
-        surface.facets.push_back(facet);
-    }
-    const std::vector<double> enclosed = tetgen::region_volumes(surface);
-    std::vector<double> filled(enclosed.size());
-    double all = 0;
-    for (const CellHandle c : merged.mesh.cells()) {
-        const double volume = volmesh::volume(merged.mesh, c);
-        filled[merged.regions[c.idx()]] += volume;
-        all += volume;
-    }
-    for (std::size_t r = 0; r < enclosed.size(); ++r)
-        if (std::abs(filled[r] - enclosed[r]) > 1e-9 * all)
-            throw InputError(
-                fmt::format("the cells of a region have volume {:.12g}, its faces enclose {:.12g}", filled[r],
-                            enclosed[r]));
-}
 
 }  // namespace
 
@@ -248,18 +229,13 @@ FacetComplex bounds_of_new_cells(const FacetComplex& zone) {
     return bounds;
 }
 
-Merged glue(std::span<const Operand> operands, const KeptCells& kept, const FacetComplex& zone,
-            const FacetComplex& bounds, const ComplexMesh& new_cells, std::uint32_t shell_surface) {
-    Gluer gluer;
-    for (std::uint32_t i = 0; i < operands.size(); ++i) gluer.add_kept(i, operands[i], kept[i]);
+Merged glue(std::span<Operand> operands, std::span<const KeptPart> kept, const FacetComplex& zone,
+            const FacetComplex& bounds, const ComplexMesh& new_cells, std::uint32_t shell_surface,
+            bool may_take_mesh) {
+    Gluer gluer(operands, kept, may_take_mesh);
     gluer.add_new(new_cells, bounds, shell_surface);
     gluer.add_kept_interface(zone);
     return gluer.finish();
-}
-
-void verify(const Merged& merged) {
-    require_named_faces(merged);
-    require_volumes(merged);
 }
 
 }  // namespace maille::modeler

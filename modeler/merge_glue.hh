@@ -14,13 +14,11 @@ namespace maille::modeler {
 FacetComplex bounds_of_new_cells(const FacetComplex& zone);
 
 /// Puts the kept cells and the new ones together at the vertices that they have in common. `bounds` is what
-/// was meshed, `zone` the whole of it with the facets between kept cells and others. Throws InputError where
-/// the parts do not fit.
-Merged glue(std::span<const Operand> operands, const KeptCells& kept, const FacetComplex& zone,
-            const FacetComplex& bounds, const ComplexMesh& new_cells, std::uint32_t shell_surface);
-
-/// Throws InputError unless the faces named are exactly those on the boundary and between regions, and the
-/// cells of each region have the volume that its faces enclose.
-void verify(const Merged& merged);
+/// was meshed, `zone` the whole of it with the facets between kept cells and others. The operand of which the
+/// most is kept is taken as it is, or a copy of it, and all else put in the place of what goes there. What
+/// comes out is verified. Throws InputError where the parts do not fit.
+Merged glue(std::span<Operand> operands, std::span<const KeptPart> kept, const FacetComplex& zone,
+            const FacetComplex& bounds, const ComplexMesh& new_cells, std::uint32_t shell_surface,
+            bool may_take_mesh);
 
 }  // namespace maille::modeler

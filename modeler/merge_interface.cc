@@ -12,20 +12,19 @@ InterfaceTable::InterfaceTable(const FacetComplex& interface) {
         facets_.emplace(sorted(interface.facets[f].vertices), f);
 }
 
-std::optional<Triple> InterfaceTable::vertices(const std::array<Vector3d, 3>& triangle) const {
-    Triple result{};
-    for (int k = 0; k < 3; ++k) {
-        const auto found = points_.find(triangle[k]);
-        if (!found) return std::nullopt;
-        result[k] = *found;
-    }
-    return result;
+std::optional<std::uint32_t> InterfaceTable::facet(const Triple& corners) const {
+    const auto found = facets_.find(sorted(corners));
+    return found == facets_.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::optional<std::uint32_t> InterfaceTable::facet(const std::array<Vector3d, 3>& triangle) const {
-    const auto corners = vertices(triangle);
-    const auto found = corners ? facets_.find(sorted(*corners)) : facets_.end();
-    return found == facets_.end() ? std::nullopt : std::optional(found->second);
+    Triple corners{};
+    for (int k = 0; k < 3; ++k) {
+        const auto found = vertex(triangle[k]);
+        if (!found) return std::nullopt;
+        corners[k] = *found;
+    }
+    return facet(corners);
 }
 
 std::array<Vector3d, 3> face_points(const volmesh::TetMesh& mesh, volmesh::HalffaceHandle face) {

@@ -18,9 +18,10 @@ namespace maille::modeler {
 class InterfaceTable {
   public:
     explicit InterfaceTable(const FacetComplex& interface);
-    /// The interface's points at the triangle's corners; nothing where one is none.
-    std::optional<Triple> vertices(const std::array<Eigen::Vector3d, 3>& triangle) const;
-    /// The facet with these corners, whichever way it turns.
+    /// The interface's point at the place.
+    std::optional<std::uint32_t> vertex(const Eigen::Vector3d& place) const { return points_.find(place); }
+    /// The facet with these of the interface's points for corners, whichever way it turns.
+    std::optional<std::uint32_t> facet(const Triple& corners) const;
     std::optional<std::uint32_t> facet(const std::array<Eigen::Vector3d, 3>& triangle) const;
 
   private:

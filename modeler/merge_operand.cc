@@ -30,27 +30,28 @@ constexpr Way last_way{false, false, "meshing everything anew on the surfaces as
 
 class Merger {
   public:
-    Merger(std::span<const Operand> operands, const CsgTree& tree, const RemeshGeometry& geometry,
-           std::uint32_t n_surfaces, double time_limit, std::vector<std::string>& warnings)
+    Merger(std::span<Operand> operands, const CsgTree& tree, const RemeshGeometry& geometry,
+           std::uint32_t n_surfaces, const MergeSettings& settings, std::vector<std::string>& warnings)
         : operands_(operands),
           tree_(tree),
           geometry_(with_shell(geometry, n_surfaces)),
           shell_surface_(n_surfaces),
-          options_{.time_limit = time_limit, .name = names(operands)},
+          may_take_mesh_(settings.may_take_mesh),
+          options_{.time_limit = settings.time_limit, .name = names(operands)},
           warnings_(warnings) {
         for (const Operand& operand : operands) sizes_.push_back(operand.size);
     }
 
     Merged merge(const FacetComplex& interface, const Way& way) const {
-        const KeptCells kept =
-            way.keep_cells ? choose_kept_cells(operands_, tree_, interface) : nothing_kept();
-        FacetComplex zone = zone_complex(operands_, kept, interface, shell_surface_);
+        const InterfaceTable table(interface);
+        const std::vector<KeptPart> kept = way.keep_cells
+                                               ? choose_kept_cells(operands_, tree_, interface, table)
+                                               : std::vector<KeptPart>(operands_.size());
+        FacetComplex zone = zone_complex(operands_, kept, interface, table, shell_surface_);
         if (way.remesh_surface) remesh_surface(zone);
         const FacetComplex bounds = bounds_of_new_cells(zone);
         const ComplexMesh new_cells = tetrahedralize(bounds, sizes_, options_, &warnings_);
-        Merged merged = glue(operands_, kept, zone, bounds, new_cells, shell_surface_);
-        verify(merged);
-        return merged;
+        return glue(operands_, kept, zone, bounds, new_cells, shell_surface_, may_take_mesh_);
     }
 
     /// Of the operands, for messages.
@@ -84,22 +85,17 @@ class Merger {
         return operands.size() > most ? fmt::format("{} and {} others", text, operands.size() - most) : text;
     }
 
-    KeptCells nothing_kept() const {
-        KeptCells kept;
-        for (const Operand& operand : operands_) kept.emplace_back(operand.mesh.n_cells());
-        return kept;
-    }
-
     void remesh_surface(FacetComplex& zone) const {
         if (std::ranges::all_of(zone.facets, &Facet::frozen)) return;
         if (remesh(zone, geometry_).rolled_back)
             warnings_.push_back("remeshing the surfaces was undone, because they came to cross each other");
     }
 
-    std::span<const Operand> operands_;
+    std::span<Operand> operands_;
     const CsgTree& tree_;
     RemeshGeometry geometry_;
     std::uint32_t shell_surface_;
+    bool may_take_mesh_;
     TetrahedralizeOptions options_;
     std::vector<double> sizes_;
     std::vector<std::string>& warnings_;
@@ -121,12 +117,22 @@ FacetComplex arranged_surfaces(std::span<const Operand> operands, const CsgTree&
 
 }  // namespace
 
-Merged merge_operands(std::span<const Operand> operands, const CsgTree& tree, const RemeshGeometry& geometry,
+std::vector<Origin> Kept::origins() const {
+    std::vector<Origin> all;
+    all.reserve(size());
+    for (std::uint32_t i = 0; i < n_base; ++i) all.push_back({base, i});
+    for (std::uint32_t i = 0; i < moved.size(); ++i)
+        if (moved[i] != volmesh::TetMesh::none) all[moved[i]].index = n_base + i;
+    all.insert(all.end(), further.begin(), further.end());
+    return all;
+}
+
+Merged merge_operands(std::span<Operand> operands, const CsgTree& tree, const RemeshGeometry& geometry,
                       std::uint32_t n_surfaces, const MergeSettings& settings,
                       std::vector<std::string>& warnings) {
     const FacetComplex interface = arranged_surfaces(operands, tree);
     if (interface.facets.empty()) throw InputError("the model is empty: its operations leave no volume");
-    const Merger merger(operands, tree, geometry, n_surfaces, settings.time_limit, warnings);
+    const Merger merger(operands, tree, geometry, n_surfaces, settings, warnings);
     for (const Way& way : first_ways) {
         if (way.keep_cells && !settings.keep_cells) continue;
         try {

@@ -34,18 +34,39 @@ struct InterfaceFace {
     std::uint32_t surface;
 };
 
-/// What merging yields. Cells and vertices that were kept come first.
+/// The kept cells, or vertices, of a merged mesh, which come first in it: those of the operand of which the
+/// most cells are kept, its base, then those of the others.
+struct Kept {
+    std::uint32_t base = 0;    ///< the operand
+    std::uint32_t n_base = 0;  ///< so many are the base's, under the numbers that they had, but for those
+    std::vector<std::uint32_t> moved{};  ///< of its numbers from n_base on: where these went, if anywhere
+    std::vector<Origin> further{};
+
+    std::uint32_t size() const { return n_base + static_cast<std::uint32_t>(further.size()); }
+    std::uint32_t operand(std::uint32_t i) const { return i < n_base ? base : further[i - n_base].operand; }
+    std::vector<Origin> origins() const;
+};
+
+/// What merging yields.
 struct Merged {
     volmesh::TetMesh mesh;
-    std::vector<std::uint32_t> regions;  ///< of each cell: the operand that owns its place
-    std::vector<Origin> kept_cells;
-    std::vector<Origin> kept_vertices;
-    std::vector<InterfaceFace> faces;  ///< in the order of their half-faces
+    Kept kept_cells, kept_vertices;
+    std::vector<std::uint32_t> regions_of_new;  ///< of each further cell: the operand that owns its place
+    std::vector<InterfaceFace> faces;           ///< in the order of their half-faces
+
+    /// The operand that owns the cell's place.
+    std::uint32_t region(volmesh::CellHandle c) const {
+        return c.idx() < kept_cells.size() ? kept_cells.operand(c.idx())
+                                           : regions_of_new[c.idx() - kept_cells.size()];
+    }
 };
 
 struct MergeSettings {
     bool keep_cells = true;  ///< false: everything is meshed anew
     double time_limit = 0;   ///< see TetrahedralizeOptions
+    /// Whether the base's mesh may be taken from it and made the result, which leaves it none, but spares a
+    /// copy: of large meshes, half of what the cells far from the interface cost.
+    bool may_take_mesh = false;
 };
 
 /// The tree of the operands as one conforming mesh. Cells that no other surface touches are kept, with one
@@ -54,7 +75,7 @@ struct MergeSettings {
 ///
 /// `geometry` knows the surfaces by the numbers in the operands' surfaces, `n_surfaces` of them.
 /// Throws InputError where the result is empty or nothing succeeds.
-Merged merge_operands(std::span<const Operand> operands, const CsgTree& tree, const RemeshGeometry& geometry,
+Merged merge_operands(std::span<Operand> operands, const CsgTree& tree, const RemeshGeometry& geometry,
                       std::uint32_t n_surfaces, const MergeSettings& settings,
                       std::vector<std::string>& warnings);
 

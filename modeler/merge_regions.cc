@@ -86,13 +86,36 @@ class Taker {
                     operand.surface.surfaces.push_back(surface_of(face));
                 }
         for (const VertexHandle v : region.vertices) operand.surface.points.push_back(mesh_.point(v));
-
-        for (const CellHandle c : region.cells) std::ranges::for_each(mesh_.cell_vertices(c), number);
-        operand.mesh = mesh_.taken(region.vertices, region.cells);
+        operand.mesh = without_sets(region, number);
         operand.name = fmt::format("mesh {}", number_ + 1);
         operand.size = size_ > 0 ? size_ : mean_edge(operand.surface);
         result_.operands.push_back(std::move(operand));
         result_.regions.push_back(std::move(region));
+    }
+
+    /// The region's cells, their vertices numbered.
+    template <class Number>
+    TetMesh without_sets(const MeshRegion& region, const Number& number) const {
+        std::vector<std::uint32_t> cell_numbers(mesh_.n_cells(), unnumbered);
+        volmesh::Column<TetMesh::Cell> cells;
+        cells.grow(region.cells.size());
+        for (std::uint32_t i = 0; i < region.cells.size(); ++i) {
+            cell_numbers[region.cells[i].idx()] = i;
+            for (int k = 0; k < 4; ++k) cells[i].vertices[k] = number(mesh_.cell_vertex(region.cells[i], k));
+        }
+        for (std::uint32_t i = 0; i < region.cells.size(); ++i)
+            for (int k = 0; k < 4; ++k) {
+                const HalffaceHandle beyond =
+                    mesh_.opposite_halfface_handle(TetMesh::halfface(region.cells[i], k));
+                std::uint32_t& neighbor = cells[i].neighbors[k] = TetMesh::none;
+                if (!beyond.is_valid()) continue;
+                if (const std::uint32_t c = cell_numbers[TetMesh::incident_cell(beyond).idx()];
+                    c != unnumbered)
+                    neighbor = TetMesh::halfface(CellHandle(c), TetMesh::local_face(beyond)).idx();
+            }
+        std::vector<Eigen::Vector3d> points;
+        for (const VertexHandle v : region.vertices) points.push_back(mesh_.point(v));
+        return TetMesh::from_linked_cells(std::move(points), std::move(cells));
     }
 
     std::uint32_t surface_of(HalffaceHandle face) const {

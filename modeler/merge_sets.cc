@@ -26,7 +26,7 @@ class SetCarrier {
         std::vector<std::vector<CellHandle>> cells_of(regions_.regions.size());
         std::vector<std::uint32_t> order;  // of regions, as they first appear
         for (const CellHandle c : merged_.mesh.cells()) {
-            const std::uint32_t region = merged_.regions[c.idx()];
+            const std::uint32_t region = merged_.region(c);
             if (cells_of[region].empty()) order.push_back(region);
             cells_of[region].push_back(c);
         }
@@ -52,17 +52,16 @@ class SetCarrier {
 
     /// What is inside a region is known only where its cells are kept.
     void carry_kept() {
-        for (std::uint32_t c = 0; c < merged_.kept_cells.size(); ++c) {
-            const Origin& origin = merged_.kept_cells[c];
+        for (std::uint32_t c = 0; const Origin& origin : merged_.kept_cells.origins()) {
             const MeshRegion& region = regions_.regions[origin.operand];
-            carry_insides(meshes_[region.mesh], region.cells[origin.index], CellHandle(c));
+            carry_insides(meshes_[region.mesh], region.cells[origin.index], CellHandle(c++));
         }
-        for (std::uint32_t v = 0; v < merged_.kept_vertices.size(); ++v) {
-            const Origin& origin = merged_.kept_vertices[v];
+        for (std::uint32_t v = 0; const Origin& origin : merged_.kept_vertices.origins()) {
             const MeshRegion& region = regions_.regions[origin.operand];
             const TetMesh& from = meshes_[region.mesh];
             for (const SetHandle set : from.sets_of(from.combination(region.vertices[origin.index])))
                 merged_.mesh.insert(same_set(from, set), VertexHandle(v));
+            ++v;
         }
     }
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "modeler/arrange_union_find.hh"
 #include "modeler/merge_contact.hh"
+#include "volmesh/union_find.hh"
 
 namespace maille::modeler {
 namespace {
@@ -86,15 +86,19 @@ class TouchFinder::Search {
     enum class State : std::uint8_t { unknown, untouched, touched };
 
     void test_boundary() {
+        std::vector<std::optional<std::uint32_t>> corners;
+        for (const Vector3d& p : finder_.operands_[operand_].surface.points)
+            corners.push_back(finder_.table_.vertex(p));
         for (const HalffaceHandle face : mesh_.boundary_halffaces()) {
-            const CellHandle c = TetMesh::incident_cell(face);
-            boundary_.push_back(c);
-            if (const auto facet = finder_.table_.facet(face_points(mesh_, face)))
+            result_.boundary.push_back(face);
+            const auto [a, b, c] = mesh_.halfface_vertices(face);
+            const auto &i = corners[a.idx()], &j = corners[b.idx()], &k = corners[c.idx()];
+            if (const auto facet = i && j && k ? finder_.table_.facet(Triple{*i, *j, *k}) : std::nullopt)
                 is_own_[*facet] = 1;
             else
-                touch(c);
+                touch(TetMesh::incident_cell(face));
         }
-        for (const CellHandle c : boundary_) test(c);
+        for (const HalffaceHandle face : result_.boundary) test(TetMesh::incident_cell(face));
     }
 
     /// Tests a cell where each piece lies inside. False where none is found.
@@ -108,25 +112,26 @@ class TouchFinder::Search {
     }
 
     CellHandle boundary_cell_near(const Vector3d& place) const {
-        return std::ranges::min(boundary_, {}, [&](CellHandle c) {
-            return (mesh_.point(mesh_.cell_vertex(c, 0)) - place).squaredNorm();
+        const auto near = std::ranges::min(result_.boundary, {}, [&](HalffaceHandle face) {
+            return (mesh_.point(mesh_.cell_vertex(TetMesh::incident_cell(face), 0)) - place).squaredNorm();
         });
+        return TetMesh::incident_cell(near);
     }
 
     TouchedCells spread() {
-        TouchedCells result;
-        result.vertices.resize(mesh_.n_vertices());
-        std::vector<std::uint8_t> is_near(mesh_.n_cells());
-        for (std::size_t i = 0; i < touched_.size(); ++i)
-            for (const VertexHandle v : mesh_.cell_vertices(touched_[i])) {
-                if (std::exchange(result.vertices[v.idx()], 1)) continue;
+        result_.vertices.resize(mesh_.n_vertices());
+        std::vector<bool> is_near(mesh_.n_cells());
+        for (std::size_t i = 0; i < result_.cells.size(); ++i)
+            for (const VertexHandle v : mesh_.cell_vertices(result_.cells[i])) {
+                if (std::exchange(result_.vertices[v.idx()], 1)) continue;
                 for (const CellHandle c : mesh_.vc_range(v)) {
                     test(c);
-                    if (!std::exchange(is_near[c.idx()], 1)) result.near.push_back(c);
+                    if (is_near[c.idx()]) continue;
+                    is_near[c.idx()] = true;
+                    result_.near.push_back(c);
                 }
             }
-        result.cells = std::move(touched_);
-        return result;
+        return std::move(result_);
     }
 
     /// Whether the cell is touched.
@@ -148,7 +153,7 @@ class TouchFinder::Search {
     }
 
     void touch(CellHandle c) {
-        if (std::exchange(states_[c.idx()], State::touched) != State::touched) touched_.push_back(c);
+        if (std::exchange(states_[c.idx()], State::touched) != State::touched) result_.cells.push_back(c);
     }
 
     const TouchFinder& finder_;
@@ -156,8 +161,7 @@ class TouchFinder::Search {
     const TetMesh& mesh_;
     std::vector<std::uint8_t> is_own_;  ///< by facet: whether it is a boundary face of the mesh
     std::vector<State> states_;         ///< by cell
-    std::vector<CellHandle> boundary_;  ///< a cell of each boundary face
-    std::vector<CellHandle> touched_;
+    TouchedCells result_;
 };
 
 TouchFinder::TouchFinder(std::span<const Operand> operands, const SolidClassifier& classifier,
@@ -171,7 +175,7 @@ TouchFinder::TouchFinder(std::span<const Operand> operands, const SolidClassifie
 }
 
 void TouchFinder::find_pieces(const SolidClassifier& classifier) {
-    detail::UnionFind joined(interface_.points.size());
+    volmesh::UnionFind joined(interface_.points.size());
     for (const Facet& facet : interface_.facets)
         for (int k = 1; k < 3; ++k) joined.unite(facet.vertices[0], facet.vertices[k]);
     std::vector<std::uint32_t> piece_at(interface_.points.size());

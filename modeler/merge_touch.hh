@@ -19,6 +19,7 @@ struct TouchedCells {
     std::vector<volmesh::CellHandle>
         near;                            ///< those that share a vertex with such a one, which are among them
     std::vector<std::uint8_t> vertices;  ///< by vertex: whether a touched cell has it
+    std::vector<volmesh::HalffaceHandle> boundary;  ///< the mesh's, ascending
 };
 
 /// Finds the cells of operands that a facet of the interface touches other than as one of the operand's own

@@ -29,7 +29,7 @@ SharedFamilies::SharedFamilies(std::span<const Primitive> primitives)
         if (as<Cone>(i) != nullptr || as<Ellipsoid>(i) != nullptr || as<Torus>(i) != nullptr)
             round_.push_back(i);
     }
-    detail::UnionFind sets(primitives_.size());
+    volmesh::UnionFind sets(primitives_.size());
     for (std::size_t a = 0; a < round_.size(); ++a)
         for (std::size_t b = a + 1; b < round_.size(); ++b)
             if (boxes_[round_[a]].intersects(boxes_[round_[b]]) && are_on_one(round_[a], round_[b]))

@@ -8,9 +8,9 @@
 
 #include <Eigen/Geometry>
 
-#include "modeler/arrange_union_find.hh"
 #include "modeler/primitive.hh"
 #include "modeler/shape_cone.hh"
+#include "volmesh/union_find.hh"
 
 namespace maille::modeler {
 
@@ -83,8 +83,8 @@ class SharedFamilies {
     std::vector<std::uint32_t> round_;                  ///< cones, ellipsoids and tori
     std::map<std::uint32_t, SharedFamily> families_;    ///< by their first member
     std::map<std::uint32_t, std::uint32_t> family_of_;  ///< by primitive
-    detail::UnionFind linked_;                          ///< families that have to be of one size
-    detail::UnionFind circles_;                         ///< by number
+    volmesh::UnionFind linked_;                         ///< families that have to be of one size
+    volmesh::UnionFind circles_;                        ///< by number
 };
 
 /// Finds where ellipsoids and tori touch others along circles about their axis.

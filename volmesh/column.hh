@@ -61,6 +61,8 @@ class Column {
         std::uninitialized_copy(values.begin(), values.end(), data_);
     }
     void clear() { size_ = 0; }
+    /// Gives the memory behind the last value back, as far as it is much; growing takes it again.
+    void trim() { give_back_memory(data_, size_ * sizeof(T), capacity_ * sizeof(T)); }
     void swap(Column& other) noexcept {
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);

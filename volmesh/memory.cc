@@ -71,6 +71,12 @@ void* resized_memory(void* block, std::size_t old_size, std::size_t size) {
     return larger;
 }
 
+void give_back_memory(void* block, std::size_t used, std::size_t size) noexcept {
+    if (!is_mapped(size)) return;
+    const std::size_t from = rounded_up(used, huge_page), to = rounded_up(size, huge_page);
+    if (from < to) madvise(static_cast<char*>(block) + from, to - from, MADV_DONTNEED);
+}
+
 void release_memory(void* block, std::size_t size) noexcept {
     if (is_mapped(size))
         munmap(block, rounded_up(size, huge_page));

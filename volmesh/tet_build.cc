@@ -11,6 +11,7 @@
 #include "volmesh/orientation.hh"
 #include "volmesh/overlap.hh"
 #include "volmesh/tet_mesh.hh"
+#include "volmesh/union_find.hh"
 
 namespace maille::volmesh {
 namespace {
@@ -58,34 +59,45 @@ TetMesh TetMesh::from_linked_cells(std::vector<Point> points, Column<Cell> cells
     TetMesh mesh;
     mesh.points_.assign(std::exchange(points, {}));
     mesh.cells_ = std::move(cells);
-    mesh.link_neighbors();
+    // Where most are not known, nobody needs a list of them.
+    std::vector<Index> unlinked;
+    for (Index hf = 0; hf < mesh.n_halffaces() && unlinked.size() <= mesh.n_cells() / 4; ++hf)
+        if (mesh.cells_[hf / 4].neighbors[hf % 4] == none) unlinked.push_back(hf);
+    const std::vector<Index> boundary = mesh.link(std::move(unlinked));
     mesh.find_vertex_cells();
-    mesh.find_pinches();
+    mesh.find_pinches(boundary);
     return mesh;
 }
 
-// Brings together the faces whose neighbours are not known.
-void TetMesh::link_neighbors() {
+// Brings together the faces whose neighbours are not known, of which all are given or more than a quarter of
+// the cells' number. Returns those on the boundary, ascending as they are given.
+std::vector<TetMesh::Index> TetMesh::link(std::vector<Index> unlinked) {
     const auto vertices_of = [&](Index c) -> const auto& {
         return cells_[c].vertices;
     };
-    const auto link = [&](Index halfface, Index other) {
+    const auto link_two = [&](Index halfface, Index other) {
         cells_[halfface / 4].neighbors[halfface % 4] = other;
         cells_[other / 4].neighbors[other % 4] = halfface;
     };
-    const std::size_t few = n_cells() / 4;
-    std::vector<Index> unknown;
-    for (Index hf = 0; hf < n_halffaces() && unknown.size() <= few; ++hf)
-        if (cells_[hf / 4].neighbors[hf % 4] == none) unknown.push_back(hf);
-    if (unknown.size() > few) {
+    if (unlinked.size() > n_cells() / 4) {
         // Then all anew, by many threads and in parts that fit into the cache.
-        n_boundary_ = linking::link_faces(n_vertices(), n_cells(), vertices_of, link);
-        return;
+        n_boundary_ = linking::link_faces(n_vertices(), n_cells(), vertices_of, link_two);
+        return boundary_sides();
     }
     linking::Pairing pairing;
-    pairing.gather(unknown, vertices_of);
-    if (!pairing.link(link)) pairing.fail();
+    pairing.gather(unlinked, vertices_of);
+    if (!pairing.link(link_two)) pairing.fail();
     n_boundary_ = pairing.n_single();
+    std::erase_if(unlinked, [&](Index hf) { return cells_[hf / 4].neighbors[hf % 4] != none; });
+    return unlinked;
+}
+
+std::vector<TetMesh::Index> TetMesh::boundary_sides() const {
+    std::vector<Index> sides;
+    sides.reserve(n_boundary_);
+    for (Index hf = 0; hf < n_halffaces(); ++hf)
+        if (cells_[hf / 4].neighbors[hf % 4] == none && !is_deleted(CellHandle(hf / 4))) sides.push_back(hf);
+    return sides;
 }
 
 void TetMesh::find_vertex_cells() {
@@ -94,36 +106,42 @@ void TetMesh::find_vertex_cells() {
         for (Index v : cells_[c].vertices) vertex_cells_[v] = c;
 }
 
-void TetMesh::find_pinches() {
+// Fans can only part at the boundary: an edge where more than two boundary faces meet; a vertex where those
+// at it don't all hang together by such edges as have two.
+void TetMesh::find_pinches(std::span<const Index> boundary) {
     vertex_fans_.clear();
     edge_fans_.clear();
-
-    // Fans can only part at the boundary. A vertex is pinched where its first fan doesn't hold all its cells;
-    // an edge where more than two boundary faces meet.
-    std::vector<Index> n_cells_at(points_.size(), 0);
-    for (const Cell& cell : cells_)
-        for (Index v : cell.vertices) ++n_cells_at[v];
-    std::vector<std::uint8_t> on_boundary(points_.size(), 0);
-    std::vector<std::uint64_t> boundary_edges;
-    boundary_edges.reserve(3 * n_boundary_);
-    for (Index hf = 0; hf < n_halffaces(); ++hf) {
-        if (cells_[hf / 4].neighbors[hf % 4] != none || is_deleted(CellHandle(hf / 4))) continue;
-        const auto v = halfface_vertices(HalffaceHandle(hf));
-        for (int i = 0; i < 3; ++i) {
-            on_boundary[v[i].idx()] = 1;
-            boundary_edges.push_back(edge_key(v[i].idx(), v[(i + 1) % 3].idx()));
-        }
-    }
-    std::ranges::sort(boundary_edges);
+    const auto corner_vertex = [&](Index corner) {
+        return halfface_vertices(HalffaceHandle(boundary[corner / 3]))[corner % 3].idx();
+    };
+    const auto next_corner = [](Index corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+    std::vector<std::pair<std::uint64_t, Index>> edges;  // with the corner that each leaves
+    edges.reserve(3 * boundary.size());
+    for (Index corner = 0; corner < 3 * boundary.size(); ++corner)
+        edges.emplace_back(edge_key(corner_vertex(corner), corner_vertex(next_corner(corner))), corner);
+    std::ranges::sort(edges);
     std::map<Index, CellList> pinched_vertices;
     std::map<std::uint64_t, CellList> pinched_edges;
-    for (Index v = 0; v < n_vertices(); ++v)
-        if (on_boundary[v] && vc_range(VertexHandle(v)).size() != n_cells_at[v]) pinched_vertices[v];
-    for (std::size_t i = 0; i < boundary_edges.size();) {
+    UnionFind corners(edges.size());
+    for (std::size_t i = 0; i < edges.size();) {
         std::size_t same = i + 1;
-        while (same < boundary_edges.size() && boundary_edges[same] == boundary_edges[i]) ++same;
-        if (same - i > 2) pinched_edges[boundary_edges[i]];
+        while (same < edges.size() && edges[same].first == edges[i].first) ++same;
+        if (same - i > 2) pinched_edges[edges[i].first];
+        if (same - i == 2) {
+            const Index a = edges[i].second, b = edges[i + 1].second;
+            const bool run_alike = corner_vertex(a) == corner_vertex(b);
+            corners.unite(a, run_alike ? b : next_corner(b));
+            corners.unite(next_corner(a), run_alike ? next_corner(b) : b);
+        }
         i = same;
+    }
+    std::vector<Index> group_at(points_.size(), none);
+    for (Index corner = 0; corner < edges.size(); ++corner) {
+        const Index v = corner_vertex(corner), group = corners.find(corner);
+        if (group_at[v] == none)
+            group_at[v] = group;
+        else if (group_at[v] != group)
+            pinched_vertices[v];
     }
     if (pinched_vertices.empty() && pinched_edges.empty()) return;
 
@@ -140,7 +158,7 @@ void TetMesh::find_pinches() {
         const VertexHandle hinge(v);
         auto fans = first_cells_of_fans(*this, cells, {&hinge, 1});
         vertex_cells_[v] = fans.front();
-        vertex_fans_[v].assign(fans.begin() + 1, fans.end());
+        if (fans.size() > 1) vertex_fans_[v].assign(fans.begin() + 1, fans.end());
     }
     for (const auto& [key, cells] : pinched_edges) {
         const std::array hinge{VertexHandle(static_cast<Index>(key >> 32U)),

@@ -104,7 +104,7 @@ IndexMaps TetMesh::garbage_collection() {
     for (int kind = 0; kind < 4; ++kind)
         properties_[kind].for_each(
             [&](BaseProperty& property) { property.gather(by_kind[kind]->old_indices); });
-    find_pinches();
+    find_pinches(boundary_sides());
     return {vertices.new_indices, edges.new_indices, faces.new_indices, cells.new_indices};
 }
 

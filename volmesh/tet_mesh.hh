@@ -33,6 +33,8 @@ template <class H>
 struct SmartHandle;
 struct Retriangulation;
 struct Cavity;
+struct CellExchange;
+struct ExchangedNumbers;
 
 /// Where each old index went in a garbage collection; the invalid index for what is gone.
 struct IndexMaps {
@@ -259,6 +261,12 @@ class TetMesh : public TetNavigation {
     /// properties' rules. The weights sum to 1.
     VertexHandle add_vertex(std::span<const VertexHandle> parents, std::span<const double> weights);
 
+    /// Takes many cells out and puts others in; cell_exchange.hh says how. Edges and faces lose their numbers
+    /// (std::logic_error where they have properties, or where something is deleted). Throws InputError where
+    /// more than two cells come to share a face; the mesh is of no use then. Cost: a pass over the cells,
+    /// some 20 ns each, and 0.2 us for those that go, move or come.
+    ExchangedNumbers exchange_cells(const CellExchange& change);
+
     /// Marks it deleted: its neighbours get a boundary; its vertices stay. Its index is free after
     /// garbage_collection().
     void delete_cell(CellHandle c);
@@ -456,6 +464,7 @@ class TetMesh : public TetNavigation {
     struct Split;
     struct SplitLocals;
     class UniformSplit;
+    class Exchange;
 
     const NamedSets::Row& row(CellHandle c) const {
         return sets_.row(cell_rows_.empty() ? 0 : cell_rows_[c.idx()]);
@@ -486,9 +495,10 @@ class TetMesh : public TetNavigation {
     PropertyList& properties_of(EntityKind kind) const { return properties_[static_cast<int>(kind)]; }
     std::size_t n_indices(EntityKind kind) const;
 
-    void link_neighbors();
+    std::vector<Index> link(std::vector<Index> unlinked);
+    std::vector<Index> boundary_sides() const;
     void find_vertex_cells();
-    void find_pinches();
+    void find_pinches(std::span<const Index> boundary);
     void repair_fans(std::span<const VertexHandle> vertices, std::span<const CellList> cells_at);
     template <class Visit>
     void visit_fan(Index start, Index vertex, const Visit& visit) const;

@@ -163,17 +163,19 @@ bool TetMesh::contains(SetHandle s, EdgeHandle e) const {
     return contains(s, c, local);
 }
 
-// A cell that add_cell has just linked: its edges and faces that others have too are in the same sets there.
+// A cell that has just been linked: its edges and faces that others have too are in the same sets there.
+// Those of lower numbers: the others may not have any yet.
 void TetMesh::inherit_sets_from_neighbors(CellHandle c) {
     if (cell_rows_.empty()) return;
     NamedSets::Row inherited;
     for (int f = 0; f < 4; ++f)
-        if (const HalffaceHandle other = opposite_halfface_handle(halfface(c, f)); other.is_valid())
+        if (const HalffaceHandle other = opposite_halfface_handle(halfface(c, f));
+            other.is_valid() && incident_cell(other) < c)
             inherited.faces[f] = combination(other);
     for (int e = 0; e < 6; ++e) {
         const auto [i, j] = tet::edge_vertices[e];
         for (CellHandle around : cells_around(c, e))
-            if (around != c)
+            if (around < c)
                 inherited.edges[e] =
                     combination(around, local_edge(around, cell_vertex(c, i), cell_vertex(c, j)));
     }

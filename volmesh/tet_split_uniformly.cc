@@ -71,7 +71,7 @@ std::vector<std::array<VertexHandle, 2>> TetMesh::UniformSplit::run() {
         divide_edges(parents);
     else
         mesh_.edges_.reset();
-    if (!mesh_.vertex_fans_.empty() || !mesh_.edge_fans_.empty()) mesh_.find_pinches();
+    if (!mesh_.vertex_fans_.empty() || !mesh_.edge_fans_.empty()) mesh_.find_pinches(mesh_.boundary_sides());
     apply_custom_rules();
     return std::move(ends_);
 }

@@ -106,7 +106,7 @@ TEST_CASE("new vertices that are off their surfaces are brought there, kept ones
     SUBCASE("some were kept") {
         Merged merged = bricks.merged();
         const volmesh::TetMesh before = merged.mesh;
-        merged.kept_vertices.resize(20);
+        merged.kept_vertices.n_base = 20;
         const auto result = project_new_vertices(merged, projector(bricks.model()));
         CHECK(result.moved > 20);
         for (std::uint32_t v = 0; v < 20; ++v) CHECK(merged.mesh.points()[v] == before.points()[v]);

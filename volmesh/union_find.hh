@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace maille::modeler::detail {
+namespace maille::volmesh {
 
 /// Disjoint sets of numbers. The smallest member stands for its set.
 class UnionFind {
@@ -30,4 +30,4 @@ class UnionFind {
     std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace maille::modeler::detail
+}  // namespace maille::volmesh
