@@ -14,19 +14,15 @@
 /// length, in the byte order of the machine.
 namespace maille::modeler::tetgen {
 
-/// Marks the tetrahedra around a place.
-struct Seed {
-    Eigen::Vector3d place;
-    double max_volume;
-};
-
 struct Request {
     std::string switches;       ///< as on TetGen's command line
     double processor_time = 0;  ///< seconds that the worker may compute
     std::vector<Eigen::Vector3d> points;
     std::vector<std::array<std::uint32_t, 3>> facets;
-    std::vector<Seed> regions;
-    std::vector<Eigen::Vector3d> holes;
+    /// Of each facet: the regions in front of it (right-hand rule) and behind. Negative ones are left empty.
+    /// Nothing where the whole is one region.
+    std::vector<std::array<std::int32_t, 2>> sides;
+    std::vector<double> max_volumes;  ///< of a tetrahedron, by region
 };
 
 struct Answer {
@@ -89,8 +85,8 @@ void visit_request(Archive& archive, RequestType& r) {
     archive(r.processor_time);
     archive(r.points);
     archive(r.facets);
-    archive(r.regions);
-    archive(r.holes);
+    archive(r.sides);
+    archive(r.max_volumes);
 }
 
 template <class Archive, class AnswerType>

@@ -12,7 +12,6 @@
 #include "modeler/tetgen_process.hh"
 #include "modeler/tetrahedralize_check.hh"
 #include "volmesh/error.hh"
-#include "volmesh/tet_topology.hh"
 
 namespace maille::modeler {
 namespace {
@@ -68,48 +67,12 @@ std::vector<Eigen::Vector3d> jittered(std::vector<Eigen::Vector3d> points, doubl
     return points;
 }
 
-/// The middle of the roundest cell of each component, with its region.
-struct Middle {
-    double roundness = 0;
-    Eigen::Vector3d place;
-    Region region = outside;
-};
-
-std::vector<Middle> middles(const Answer& answer, const tetgen::Regions& regions) {
-    std::vector<Middle> result(regions.n_components);
-    for (std::size_t c = 0; c < answer.cells.size(); ++c) {
-        std::array<Eigen::Vector3d, 4> p;
-        for (int k = 0; k < 4; ++k) p[k] = answer.points[answer.cells[c][k]];
-        const double six_volumes = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
-        double area = 0;
-        for (const auto& f : volmesh::tet::face_vertices)
-            area += (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]).norm();
-        // Proportional to the inscribed sphere's radius.
-        const double roundness = area > 0 ? six_volumes / area : 0;
-        if (Middle& best = result[regions.component[c]]; roundness > best.roundness)
-            best = {roundness, (p[0] + p[1] + p[2] + p[3]) / 4, regions.of_cell[c]};
-    }
-    return result;
-}
-
-/// TetGen marks regions and holes by a place within: these come from a first mesh of the facets alone.
-void place_seeds(Request& request, const FacetComplex& complex, std::span<const double> sizes) {
-    const Answer coarse = tetgen::run(request);
-    tetgen::check_complete(coarse, request);
-    for (const Middle& middle : middles(coarse, tetgen::find_regions(coarse, complex))) {
-        if (middle.region < 0)
-            request.holes.push_back(middle.place);
-        else
-            request.regions.push_back({middle.place, volume_of_size(sizes[middle.region])});
-    }
-}
-
-ComplexMesh cells_of_regions(Answer answer, const tetgen::Regions& regions) {
+ComplexMesh cells_of_regions(Answer answer, std::span<const Region> regions) {
     ComplexMesh mesh;
     for (std::size_t c = 0; c < answer.cells.size(); ++c) {
-        if (regions.of_cell[c] < 0) continue;
+        if (regions[c] < 0) continue;
         mesh.cells.push_back(answer.cells[c]);
-        mesh.regions.push_back(regions.of_cell[c]);
+        mesh.regions.push_back(regions[c]);
     }
     mesh.points = std::move(answer.points);
     mesh.facets = std::move(answer.facets);
@@ -132,13 +95,14 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
     if (rung.refine && one_region) {
         request.switches = fmt::format("pq1.4/14{}o/140a{:.17g}", common, volume_of_size(sizes[0]));
     } else if (rung.refine) {
-        place_seeds(request, complex, sizes);
+        for (const Facet& facet : complex.facets) request.sides.push_back({facet.front, facet.back});
+        for (const double size : sizes) request.max_volumes.push_back(volume_of_size(size));
         request.switches = fmt::format("pq1.4/12A{}o/140a", common);
     }
     Answer answer = tetgen::run(request);
     tetgen::check_complete(answer, request);
     std::ranges::copy(complex.points, answer.points.begin());
-    const tetgen::Regions regions = tetgen::find_regions(answer, complex);
+    const std::vector<Region> regions = tetgen::find_regions(answer, complex);
     tetgen::check_geometry(answer, regions, complex);
     return cells_of_regions(std::move(answer), regions);
 }

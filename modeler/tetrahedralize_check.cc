@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/core.h>
@@ -73,22 +74,20 @@ class RegionFinder {
     RegionFinder(const Answer& answer, const FacetComplex& complex)
         : answer_(answer), complex_(complex), facets_(answer), sides_seen_(answer.facets.size()) {}
 
-    Regions find() {
-        constexpr std::uint32_t unseen = 0xffffffff;
-        regions_.of_cell.assign(answer_.cells.size(), outside);
-        regions_.component.assign(answer_.cells.size(), unseen);
+    std::vector<Region> find() {
+        regions_.assign(answer_.cells.size(), outside);
+        is_seen_.assign(answer_.cells.size(), 0);
         for (std::uint32_t c = 0; c < answer_.cells.size(); ++c)
-            if (regions_.component[c] == unseen) flood(c);
+            if (!is_seen_[c]) flood(c);
         for (std::size_t f = 0; f < sides_seen_.size(); ++f) require_cells_beside(f);
         return std::move(regions_);
     }
 
   private:
     void flood(std::uint32_t start) {
-        const std::uint32_t number = regions_.n_components++;
         std::optional<Region> region;
         std::vector<std::uint32_t> component{start};
-        regions_.component[start] = number;
+        is_seen_[start] = 1;
         for (std::size_t i = 0; i < component.size(); ++i) {
             const std::uint32_t c = component[i];
             for (int k = 0; k < 4; ++k) {
@@ -102,13 +101,12 @@ class RegionFinder {
                 } else if (const std::uint32_t next = answer_.neighbors[c][k]; next == no_cell) {
                     throw Failure(
                         fmt::format("the mesh ends beside the surface {}", at(answer_.points[outward[0]])));
-                } else if (regions_.component[next] != number) {
-                    regions_.component[next] = number;
+                } else if (!std::exchange(is_seen_[next], 1)) {
                     component.push_back(next);
                 }
             }
         }
-        for (std::uint32_t c : component) regions_.of_cell[c] = region.value_or(outside);
+        for (std::uint32_t c : component) regions_[c] = region.value_or(outside);
     }
 
     Region region_beside(std::uint32_t facet, const Triple& outward) {
@@ -131,7 +129,8 @@ class RegionFinder {
     const FacetComplex& complex_;
     FacetTable facets_;
     std::vector<std::uint8_t> sides_seen_;  ///< bit 0: behind, bit 1: in front
-    Regions regions_;
+    std::vector<std::uint8_t> is_seen_;     ///< by cell
+    std::vector<Region> regions_;
 };
 
 /// A sum of signed volumes, with the size of its terms to judge its rounding error by.
@@ -165,7 +164,7 @@ std::vector<VolumeSum> volumes_within(const FacetComplex& complex) {
 
 }  // namespace
 
-Regions find_regions(const Answer& answer, const FacetComplex& complex) {
+std::vector<Region> find_regions(const Answer& answer, const FacetComplex& complex) {
     return RegionFinder(answer, complex).find();
 }
 
@@ -192,16 +191,16 @@ void check_complete(const Answer& answer, const Request& request) {
                                       at(request.points[request.facets[f][0]])));
 }
 
-void check_geometry(const Answer& answer, const Regions& regions, const FacetComplex& complex) {
+void check_geometry(const Answer& answer, std::span<const Region> regions, const FacetComplex& complex) {
     const std::vector<Eigen::Vector3d>& points = answer.points;
     const std::vector<VolumeSum> expected = volumes_within(complex);
     std::vector<double> found(expected.size());
     for (std::size_t c = 0; c < answer.cells.size(); ++c) {
-        if (regions.of_cell[c] < 0) continue;
+        if (regions[c] < 0) continue;
         const auto& [i, j, k, l] = answer.cells[c];
         if (volmesh::orientation(points[i], points[j], points[k], points[l]) <= 0)
             throw Failure(fmt::format("TetGen made a flat or inverted tetrahedron {}", at(answer.points[i])));
-        found[regions.of_cell[c]] += volume(answer, c);
+        found[regions[c]] += volume(answer, c);
     }
     for (std::size_t r = 0; r < expected.size(); ++r)
         if (std::abs(found[r] - expected[r].value) > 1e-9 * expected[r].magnitude)

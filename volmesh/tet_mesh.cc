@@ -114,8 +114,9 @@ void TetMesh::visit_fan(Index start, Index vertex, const Visit& visit) const {
         visit(CellHandle(cell));
         for (int f = 0; f < 4; ++f) {
             const Index other = cells_[cell].neighbors[f];
-            if (cells_[cell].vertices[f] != vertex && other != none && is_new(other / 4))
-                found.push_back(other / 4);
+            if (cells_[cell].vertices[f] == vertex || other == none || !is_new(other / 4)) continue;
+            __builtin_prefetch(&cells_[other / 4]);  // its turn comes soon
+            found.push_back(other / 4);
         }
     }
 }

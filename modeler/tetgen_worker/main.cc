@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "modeler/tetgen_protocol.hh"
+#include "modeler/tetgen_worker/seeds.hh"
 
 namespace {
 
@@ -65,20 +66,6 @@ void fill(tetgenio& in, const Request& request) {
         for (int k = 0; k < 3; ++k) facet.polygonlist->vertexlist[k] = static_cast<int>(request.facets[f][k]);
         in.facetmarkerlist[f] = static_cast<int>(f) + 1;
     }
-
-    in.numberofregions = static_cast<int>(request.regions.size());
-    in.regionlist = new double[5 * request.regions.size()];
-    double* region = in.regionlist;
-    for (const Seed& seed : request.regions) {
-        for (int k = 0; k < 3; ++k) *region++ = seed.place[k];
-        *region++ = 0;
-        *region++ = seed.max_volume;
-    }
-    in.numberofholes = static_cast<int>(request.holes.size());
-    in.holelist = new double[3 * request.holes.size()];
-    double* hole = in.holelist;
-    for (const Eigen::Vector3d& p : request.holes)
-        for (int k = 0; k < 3; ++k) *hole++ = p[k];
 }
 
 Answer answer_from(const tetgenio& out) {
@@ -125,7 +112,12 @@ int main() {
 
     static tetgenio in, out;
     fill(in, request);
+    if (!request.sides.empty()) tell_regions(request);
     tetrahedralize(request.switches.data(), &in, &out);
+    if (!request.sides.empty() && !have_told_regions()) {
+        std::fprintf(stderr, "this TetGen library did not ask for its regions\n");
+        std::exit(2);
+    }
 
     Packer packer;
     const Answer answer = answer_from(out);
