@@ -22,7 +22,6 @@ using volmesh::TetMesh;
 using volmesh::VertexHandle;
 
 constexpr std::uint32_t unnumbered = 0xffffffff;
-constexpr std::array unlinked{TetMesh::none, TetMesh::none, TetMesh::none, TetMesh::none};
 
 struct NamedTriple {
     Triple vertices;
@@ -89,11 +88,15 @@ class Gluer {
             }
             return numbers[v];
         };
-        for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-            const auto& [i, j, k, l] = mesh.cells[c];
-            cells_.push_back({{number(i), number(j), number(k), number(l)}, unlinked});
-            merged_.regions_of_new.push_back(static_cast<std::uint32_t>(mesh.regions[c]));
+        const auto first = static_cast<std::uint32_t>(4 * cells_.size());
+        for (TetMesh::Cell cell : linked_cells(mesh)) {
+            for (std::uint32_t& v : cell.vertices) v = number(v);
+            for (std::uint32_t& hf : cell.neighbors)
+                if (hf != TetMesh::none) hf += first;
+            cells_.push_back(cell);
         }
+        for (const Region region : mesh.regions)
+            merged_.regions_of_new.push_back(static_cast<std::uint32_t>(region));
         for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
             const auto& [i, j, k] = mesh.facets[f];
             const std::uint32_t surface = bounds.facets[mesh.parents[f]].surface;

@@ -69,11 +69,17 @@ std::vector<Eigen::Vector3d> jittered(std::vector<Eigen::Vector3d> points, doubl
 
 ComplexMesh cells_of_regions(Answer answer, std::span<const Region> regions) {
     ComplexMesh mesh;
+    std::vector<std::uint32_t> numbers(answer.cells.size(), tetgen::no_cell);
     for (std::size_t c = 0; c < answer.cells.size(); ++c) {
         if (regions[c] < 0) continue;
+        numbers[c] = static_cast<std::uint32_t>(mesh.cells.size());
         mesh.cells.push_back(answer.cells[c]);
         mesh.regions.push_back(regions[c]);
+        mesh.neighbors.push_back(answer.neighbors[c]);
     }
+    for (auto& neighbors : mesh.neighbors)
+        for (std::uint32_t& c : neighbors)
+            if (c != tetgen::no_cell) c = numbers[c];
     mesh.points = std::move(answer.points);
     mesh.facets = std::move(answer.facets);
     mesh.parents = std::move(answer.parents);
@@ -101,6 +107,7 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
     }
     Answer answer = tetgen::run(request);
     tetgen::check_complete(answer, request);
+    tetgen::check_neighbors(answer);
     std::ranges::copy(complex.points, answer.points.begin());
     const std::vector<Region> regions = tetgen::find_regions(answer, complex);
     tetgen::check_geometry(answer, regions, complex);
@@ -108,6 +115,23 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
 }
 
 }  // namespace
+
+volmesh::Column<volmesh::TetMesh::Cell> linked_cells(const ComplexMesh& mesh) {
+    volmesh::Column<volmesh::TetMesh::Cell> cells;
+    cells.grow(mesh.cells.size());
+    for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
+        cells[c].vertices = mesh.cells[c];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t next = mesh.neighbors[c][k];
+            cells[c].neighbors[k] = volmesh::TetMesh::none;
+            if (next == tetgen::no_cell) continue;
+            const auto& back = mesh.neighbors[next];
+            cells[c].neighbors[k] =
+                4 * next + static_cast<std::uint32_t>(std::ranges::find(back, c) - back.begin());
+        }
+    }
+    return cells;
+}
 
 ComplexMesh tetrahedralize(const FacetComplex& complex, std::span<const double> sizes,
                            const TetrahedralizeOptions& options, std::vector<std::string>* warnings) {
@@ -143,7 +167,10 @@ volmesh::TetMesh tetrahedralize(const volmesh::TriMesh& surface, double size,
         complex.facets.push_back(facet);
     }
     ComplexMesh mesh = tetrahedralize(complex, std::array{size}, options, warnings);
-    return volmesh::TetMesh::from_cells(std::move(mesh.points), std::move(mesh.cells));
+    auto cells = linked_cells(mesh);
+    mesh.cells = {};
+    mesh.neighbors = {};
+    return volmesh::TetMesh::from_linked_cells(std::move(mesh.points), std::move(cells));
 }
 
 }  // namespace maille::modeler

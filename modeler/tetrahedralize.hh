@@ -25,12 +25,17 @@ struct TetrahedralizeOptions {
 
 /// A tetrahedral mesh of a complex of facets.
 struct ComplexMesh {
-    std::vector<Eigen::Vector3d> points;               ///< the complex's, bit by bit, then new ones
-    std::vector<std::array<std::uint32_t, 4>> cells;   ///< positively oriented
-    std::vector<Region> regions;                       ///< of each cell
+    std::vector<Eigen::Vector3d> points;              ///< the complex's, bit by bit, then new ones
+    std::vector<std::array<std::uint32_t, 4>> cells;  ///< positively oriented
+    std::vector<Region> regions;                      ///< of each cell
+    std::vector<std::array<std::uint32_t, 4>>
+        neighbors;  ///< the cell beyond the face opposite each vertex, if any
     std::vector<std::array<std::uint32_t, 3>> facets;  ///< the faces that lie on the complex's facets
     std::vector<std::uint32_t> parents;  ///< the complex's facet that each of these is a part of
 };
+
+/// The cells with their vertices and neighbours, as a mesh stores them.
+volmesh::Column<volmesh::TetMesh::Cell> linked_cells(const ComplexMesh& mesh);
 
 /// Fills every region of the complex with tetrahedra whose edges are about as long as its entry in `sizes`,
 /// by region number; places with a negative region stay empty. Points of the complex that are close together
