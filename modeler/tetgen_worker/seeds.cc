@@ -25,6 +25,7 @@ struct Part {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the roundest one
     double roundness = 0;                              ///< of that
     std::map<int, double> areas{};                     ///< by region: that of the facets which say so
+    bool is_open = false;                              ///< to the outside: TetGen takes it away unasked
     int region() const {
         return areas.empty() ? -1
                              : std::ranges::max_element(areas, {}, [](auto& a) { return a.second; })->first;
@@ -78,7 +79,9 @@ class PartFinder {
         } else {
             tetgenmesh::triface next;
             mesh_.fsym(t, next);
-            if (!mesh_.ishulltet(next) && !mesh_.infected(next)) {
+            if (mesh_.ishulltet(next)) {
+                parts_.back().is_open = true;
+            } else if (!mesh_.infected(next)) {
                 mesh_.infect(next);
                 all.push_back(next);
             }
@@ -108,6 +111,7 @@ void fill_seeds(tetgenmesh& mesh, const Request& request) {
     in.regionlist = new double[5 * parts.size()];
     in.holelist = new double[3 * parts.size()];
     for (const Part& part : parts) {
+        if (part.is_open) continue;
         const int region = part.region();
         double* place =
             region < 0 ? in.holelist + 3 * in.numberofholes++ : in.regionlist + 5 * in.numberofregions++;
