@@ -73,12 +73,19 @@ class Chooser {
             const bool is_owned = owner_at(mesh.cell_points(start)) == operand;
             std::vector<CellHandle> component{start};
             for (std::size_t i = 0; i < component.size(); ++i) {
+                constexpr std::size_t ahead = 16;  // cells are scattered in memory
+                if (i + ahead < component.size())
+                    __builtin_prefetch(&mesh.cell_vertex_indices()[component[i + ahead].idx()]);
                 is_kept[component[i].idx()] = is_owned;
-                for (const CellHandle next : mesh.cc_range(component[i]))
-                    if (!seen[next.idx()] && (!is_owned || is_at_rim[next.idx()])) {
-                        seen[next.idx()] = true;
-                        component.push_back(next);
-                    }
+                for (int k = 0; k < 4; ++k) {
+                    const HalffaceHandle beyond =
+                        mesh.opposite_halfface_handle(TetMesh::halfface(component[i], k));
+                    if (!beyond.is_valid()) continue;
+                    const CellHandle next = TetMesh::incident_cell(beyond);
+                    if (seen[next.idx()] || (is_owned && !is_at_rim[next.idx()])) continue;
+                    seen[next.idx()] = true;
+                    component.push_back(next);
+                }
             }
         }
     }

@@ -107,7 +107,6 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
     }
     Answer answer = tetgen::run(request);
     tetgen::check_complete(answer, request);
-    tetgen::check_neighbors(answer);
     std::ranges::copy(complex.points, answer.points.begin());
     const std::vector<Region> regions = tetgen::find_regions(answer, complex);
     tetgen::check_geometry(answer, regions, complex);
@@ -117,17 +116,25 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
 }  // namespace
 
 volmesh::Column<volmesh::TetMesh::Cell> linked_cells(const ComplexMesh& mesh) {
+    // The half-face of a cell that it shares with another one, across the face opposite the other's vertex k.
+    const auto halfface_towards = [&](std::uint32_t c, std::uint32_t other, std::size_t k) {
+        const auto& neighbors = mesh.neighbors[c];
+        const auto local = std::ranges::find(neighbors, other) - neighbors.begin();
+        bool fits = local < 4;
+        for (std::size_t i = 0; i < 4; ++i)
+            fits = fits && (std::ranges::find(mesh.cells[c], mesh.cells[other][i]) != mesh.cells[c].end()) ==
+                               (i != k);
+        if (!fits) throw InputError("TetGen's tetrahedra do not fit to those that it told to be beside them");
+        return 4 * c + static_cast<std::uint32_t>(local);
+    };
     volmesh::Column<volmesh::TetMesh::Cell> cells;
     cells.grow(mesh.cells.size());
     for (std::uint32_t c = 0; c < mesh.cells.size(); ++c) {
         cells[c].vertices = mesh.cells[c];
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t next = mesh.neighbors[c][k];
-            cells[c].neighbors[k] = volmesh::TetMesh::none;
-            if (next == tetgen::no_cell) continue;
-            const auto& back = mesh.neighbors[next];
             cells[c].neighbors[k] =
-                4 * next + static_cast<std::uint32_t>(std::ranges::find(back, c) - back.begin());
+                next == tetgen::no_cell ? volmesh::TetMesh::none : halfface_towards(next, c, k);
         }
     }
     return cells;
@@ -167,10 +174,7 @@ volmesh::TetMesh tetrahedralize(const volmesh::TriMesh& surface, double size,
         complex.facets.push_back(facet);
     }
     ComplexMesh mesh = tetrahedralize(complex, std::array{size}, options, warnings);
-    auto cells = linked_cells(mesh);
-    mesh.cells = {};
-    mesh.neighbors = {};
-    return volmesh::TetMesh::from_linked_cells(std::move(mesh.points), std::move(cells));
+    return volmesh::TetMesh::from_cells(std::move(mesh.points), std::move(mesh.cells));
 }
 
 }  // namespace maille::modeler

@@ -34,7 +34,8 @@ struct ComplexMesh {
     std::vector<std::uint32_t> parents;  ///< the complex's facet that each of these is a part of
 };
 
-/// The cells with their vertices and neighbours, as a mesh stores them.
+/// The cells with their vertices and neighbours, as a mesh stores them. Throws InputError where those that
+/// are neighbours don't have three vertices in common.
 volmesh::Column<volmesh::TetMesh::Cell> linked_cells(const ComplexMesh& mesh);
 
 /// Fills every region of the complex with tetrahedra whose edges are about as long as its entry in `sizes`,

@@ -191,24 +191,6 @@ void check_complete(const Answer& answer, const Request& request) {
                                       at(request.points[request.facets[f][0]])));
 }
 
-void check_neighbors(const Answer& answer) {
-    for (std::uint32_t c = 0; c < answer.cells.size(); ++c)
-        for (int k = 0; k < 4; ++k) {
-            const std::uint32_t next = answer.neighbors[c][k];
-            if (next == no_cell) continue;
-            bool fits = next < answer.cells.size();
-            for (int i = 0; i < 4 && fits; ++i) {
-                // The vertex opposite is the only one that the neighbour lacks.
-                const bool is_there =
-                    std::ranges::find(answer.cells[next], answer.cells[c][i]) != answer.cells[next].end();
-                fits = is_there == (i != k);
-            }
-            if (!fits || std::ranges::find(answer.neighbors[next], c) == answer.neighbors[next].end())
-                throw Failure(fmt::format("TetGen told wrong neighbours of a tetrahedron {}",
-                                          at(answer.points[answer.cells[c][0]])));
-        }
-}
-
 void check_geometry(const Answer& answer, std::span<const Region> regions, const FacetComplex& complex) {
     const std::vector<Eigen::Vector3d>& points = answer.points;
     const std::vector<VolumeSum> expected = volumes_within(complex);

@@ -16,10 +16,6 @@ std::vector<Region> find_regions(const Answer& answer, const FacetComplex& compl
 /// its facets cover every facet of the request.
 void check_complete(const Answer& answer, const Request& request);
 
-/// Throws Failure, telling where, unless neighbours are mutual and have the vertices of the face between
-/// them.
-void check_neighbors(const Answer& answer);
-
 /// Throws Failure, telling where, unless every cell of a region is positively oriented, exactly, and each
 /// region's cells have the volume within its facets.
 void check_geometry(const Answer& answer, std::span<const Region> regions, const FacetComplex& complex);

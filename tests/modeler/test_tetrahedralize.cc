@@ -151,6 +151,22 @@ TEST_CASE("each region of a complex gets its own size, cavities stay empty") {
     CHECK(largest <= 3 * std::pow(0.25, 3) / (6 * std::sqrt(2)));
 }
 
+TEST_CASE("the neighbours that TetGen tells are those that the cells have") {
+    FacetComplex complex;
+    add_box(complex, {-2, -2, -2}, {2, 2, 2}, outside, 0);
+    add_box(complex, {-1.5, -1.5, -1.5}, {-0.5, -0.5, -0.5}, 0, 1);
+    add_box(complex, {0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}, 0, outside);
+    ComplexMesh mesh = tetrahedralize(quartered(complex), std::vector{1.0, 0.5});
+    const auto told = linked_cells(mesh);
+    const auto found = volmesh::TetMesh::from_cells(mesh.points, mesh.cells);
+    REQUIRE(told.size() == found.n_cells());
+    for (std::uint32_t hf = 0; hf < found.n_halffaces(); ++hf)
+        CHECK(told[hf / 4].neighbors[hf % 4] ==
+              found.opposite_halfface_handle(volmesh::HalffaceHandle(hf)).idx());
+    std::swap(mesh.neighbors.front(), mesh.neighbors.back());
+    CHECK_THROWS_AS(linked_cells(mesh), InputError);
+}
+
 TEST_CASE("a surface that does not close is told") {
     FacetComplex box;
     add_box(box, {0, 0, 0}, {1, 1, 1}, outside, 0);
