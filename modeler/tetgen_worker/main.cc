@@ -9,10 +9,10 @@
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <tetgen.h>
 #include <unistd.h>
 
 #include "modeler/tetgen_protocol.hh"
+#include "modeler/tetgen_worker/library.hh"
 #include "modeler/tetgen_worker/seeds.hh"
 
 namespace {

@@ -8,7 +8,8 @@
 
 #include <Eigen/Geometry>
 #include <dlfcn.h>
-#include <tetgen.h>
+
+#include "modeler/tetgen_worker/library.hh"
 
 namespace maille::modeler::tetgen {
 namespace {
