@@ -44,9 +44,15 @@ void require_min_shape(double min_shape) {
 ShortOfTarget short_of_target(const TetMesh& mesh, const volmesh::Projector& projector,
                               const VertexSupport& support) {
     ShortOfTarget left{support.vertex, mesh.point(support.vertex), {}, {}};
-    for (const std::uint32_t surface : support.surfaces) left.surfaces.push_back(projector.surfaces[surface]);
-    const auto target = projector.project({support.surfaces.data(), support.surfaces.size()}, left.place);
-    if (target && target->allFinite()) left.distance = (*target - left.place).norm();
+    const auto distance = [&](std::span<const std::uint32_t> surfaces) -> std::optional<double> {
+        const auto target = projector.project(surfaces, left.place);
+        return target && target->allFinite() ? std::optional((*target - left.place).norm()) : std::nullopt;
+    };
+    for (const std::uint32_t& surface : support.surfaces) {
+        left.surfaces.push_back(projector.surfaces[surface]);
+        left.off = std::max(left.off, distance({&surface, 1}).value_or(0));
+    }
+    left.distance = distance({support.surfaces.data(), support.surfaces.size()});
     return left;
 }
 

@@ -15,6 +15,7 @@ struct ShortOfTarget {
     volmesh::Point place;               ///< where it had to stay
     std::vector<std::string> surfaces;  ///< the names of all that it should lie on
     std::optional<double> distance;     ///< to go; nothing where the surfaces have no common point nearby
+    double off = 0;                     ///< distance from that of the surfaces which is farthest
 };
 
 /// What bringing vertices onto the true surfaces has come to.

@@ -128,6 +128,7 @@ TEST_CASE("walls do not cross each other to reach their surfaces, and the vertic
         CHECK(left.place == merged.mesh.point(left.vertex));
         REQUIRE(left.distance);
         CHECK(*left.distance == doctest::Approx(0.1));
+        CHECK(left.off == doctest::Approx(0.1));
     }
     CHECK(distance_from(merged, bricks.model(), 7) < 1e-12);  // cube1/x+: nothing is in its way
 }

@@ -93,6 +93,23 @@ class Mesh(MailleCase):
         self.assertEqual(rest, f"and {total - sum(counts)} more vertices of others")
         self.assertGreater(total, sum(counts))
 
+    def test_corners_that_are_one_but_for_rounded_coordinates(self):
+        # Mirror images of each other, whose rims cross, but for what six digits leave of that.
+        frames = ("[[-0.67549, -0.722768, -0.146014, -0.146014], [-0.737369, 0.662114, 0.13376, 0.13376], "
+                  "[0, 0.19802, -0.980198, -0.980198], [0, 0, 0, 1]]",
+                  "[[0.996171, 0.0839651, 0.0243607, 0.0243607], [0.0874275, -0.956719, -0.277572, -0.277572], "
+                  "[0, 0.278639, -0.960396, -0.960396], [0, 0, 0, 1]]")
+        model = self.model("".join(f"multmatrix({frame}) cylinder(h = 0.6, r = 0.2, center = true);" for frame in frames))
+        done = self.run_maille("mesh", model, "--facets", "round", "-o", "two.vtu")
+        self.assertEqual(done.returncode, 0)
+        count, off = re.fullmatch(
+            r"maille: warning: (\d) vertices are short of cylinder1/side and cylinder1/bottom and cylinder2/side and "
+            r"cylinder2/bottom, the farthest off one of them, which have no common point nearby, by (\S+) at \(.*\)\n",
+            done.stderr).groups()
+        self.assertEqual(count, "2")
+        self.assertLess(float(off), 1e-6)
+        self.maille("validate", "two.vtu")
+
     def test_improvement(self):
         model = self.model(PLATE)
         for refined in ((), ("--refine", "0.1+0.1*x")):

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -17,11 +16,12 @@ namespace {
 /// "12 vertices are short of hole/side, the farthest by 0.01 at (1, 2, 3)".
 std::string words_for(const std::vector<std::string>& surfaces,
                       const std::vector<const quality::ShortOfTarget*>& members) {
-    const quality::ShortOfTarget& farthest = **std::ranges::max_element(members, {}, [](const auto* each) {
-        return each->distance.value_or(std::numeric_limits<double>::infinity());
-    });
-    const std::string distance = farthest.distance ? fmt::format("by {:.3g}", *farthest.distance)
-                                                   : std::string("with no common point of them nearby");
+    const quality::ShortOfTarget& farthest = **std::ranges::max_element(
+        members, {}, [](const auto* each) { return each->distance.value_or(each->off); });
+    const std::string distance =
+        farthest.distance
+            ? fmt::format("by {:.3g}", *farthest.distance)
+            : fmt::format("off one of them, which have no common point nearby, by {:.3g}", farthest.off);
     return fmt::format("{} {} short of {}, the farthest {} at ({:.6g}, {:.6g}, {:.6g})", members.size(),
                        members.size() == 1 ? "vertex is" : "vertices are", fmt::join(surfaces, " and "),
                        distance, farthest.place.x(), farthest.place.y(), farthest.place.z());
