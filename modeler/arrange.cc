@@ -34,16 +34,39 @@ Arrangement arrange_pairs(const Scene& scene, const ExactPositions& positions, s
     return simplify(subdivision, sides, scene, registry);
 }
 
-/// Pairs of near facets of different primitives, and of facets without area with all others.
-std::vector<Pair> pairs_to_intersect(const FacetComplex& complex, double margin, std::size_t most) {
+/// Pairs of facets of one primitive, which crosses itself, that meet.
+void add_own_pairs(const FacetComplex& complex, std::span<const ClosedSurface> primitives,
+                   std::vector<Pair>& pairs) {
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (!primitives[i].crosses_itself) continue;
+        FacetComplex own{complex.points, {}};
+        std::vector<std::uint32_t> numbers;
+        for (std::uint32_t f = 0; f < complex.facets.size(); ++f)
+            if (complex.facets[f].back == static_cast<Region>(i)) {
+                own.facets.push_back(complex.facets[f]);
+                numbers.push_back(f);
+            }
+        for (const auto& [first, second] : find_self_intersections(own))
+            if (first != second) pairs.emplace_back(numbers[first], numbers[second]);
+    }
+}
+
+/// Pairs of near facets of different primitives, of facets without area with all others, and of facets of one
+/// primitive that meet.
+std::vector<Pair> pairs_to_intersect(const FacetComplex& complex, std::span<const ClosedSurface> primitives,
+                                     double margin, std::size_t most) {
     const std::vector<bool> degenerate = degenerate_facets(complex, positions_as_given(complex));
     std::size_t count = 0;
-    return pairs_of_near_facets(complex, margin, [&](std::uint32_t i, std::uint32_t j) {
+    std::vector<Pair> pairs = pairs_of_near_facets(complex, margin, [&](std::uint32_t i, std::uint32_t j) {
         if (complex.facets[i].back == complex.facets[j].back && !degenerate[i] && !degenerate[j])
             return false;
         if (++count > most) fail_for_work(complex, std::array{i, j});
         return true;
     });
+    add_own_pairs(complex, primitives, pairs);
+    std::ranges::sort(pairs);
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
 }
 
 /// The pairs that make a complex unfit: those that cross, and facets without area with all near ones. Nothing
@@ -140,7 +163,8 @@ Arrangement arrange_once(std::span<const ClosedSurface> primitives, const CsgTre
     const Scene& scene = coarse.scene;
     const auto most_contacts = static_cast<std::size_t>(
         std::ceil(options.most_contacts * static_cast<double>(scene.complex.facets.size())));
-    const std::vector<Pair> pairs = pairs_to_intersect(scene.complex, weld_distance, most_contacts);
+    const std::vector<Pair> pairs =
+        pairs_to_intersect(scene.complex, primitives, weld_distance, most_contacts);
     Arrangement result = arrange_pairs(scene, positions_on_planes(scene.complex, pairs, weld_distance), pairs,
                                        tree, most_contacts);
     for (int round = 0;; ++round) {

@@ -14,12 +14,15 @@
 
 namespace maille::modeler {
 
-/// The surface of one primitive: closed, oriented outwards, free of self-intersections. It may be empty.
+/// The surface of one primitive: closed and oriented outwards. It may be empty.
 struct ClosedSurface {
     std::vector<Eigen::Vector3d> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint32_t>
         surfaces;  ///< of each triangle, the number of the smooth surface that it lies on
+    /// Whether its triangles may meet elsewhere than in common corners and edges. What it winds around is
+    /// inside then.
+    bool crosses_itself = false;
 };
 
 /// The input triangle that a facet is a part of.

@@ -84,7 +84,9 @@ Operand PrimitiveMesher::operand(std::size_t i, std::span<const FacePoint> point
                                                       .shared = shared_[i]});
     insert_points(surface, *primitive.shape, points);
     Operand operand{primitive.name, sizes_[i], closed_surface(surface, first_[i]), {}};
-    if (!with_cells || !options_.keep_cells) return operand;
+    if (const auto* polyhedron = dynamic_cast<const Polyhedron*>(primitive.shape.get()))
+        operand.surface.crosses_itself = crosses_itself(closed_surface(*polyhedron));
+    if (!with_cells || !options_.keep_cells || operand.surface.crosses_itself) return operand;
     try {
         operand.mesh = tetrahedralize(surface, sizes_[i],
                                       {.time_limit = options_.time_limit, .name = primitive.name}, &warnings);

@@ -301,3 +301,34 @@ TEST_CASE("what cannot be built is told") {
 }
 
 }  // namespace
+
+TEST_CASE("a polyhedron that overlaps itself is what it winds around") {
+    // A bar of width and height 1 that is bent three times and then leads through its own beginning.
+    const std::vector<Eigen::Vector2d> left{{0, 0.5}, {3.5, 0.5}, {3.5, 3.5}, {1.5, 3.5}, {1.5, -3}};
+    const std::vector<Eigen::Vector2d> right{{0, -0.5}, {4.5, -0.5}, {4.5, 4.5}, {0.5, 4.5}, {0.5, -3}};
+    std::vector<Vector3d> points;
+    for (std::size_t i = 0; i < left.size(); ++i)
+        for (const auto& p : {left[i], right[i]})
+            for (const double z : {0.0, 1.0}) points.emplace_back(p.x(), p.y(), z);
+    // Of each place: left below, left above, right below, right above.
+    std::vector<std::vector<std::uint32_t>> faces{{0, 2, 3, 1}, {16, 17, 19, 18}};
+    for (std::uint32_t i = 0; i < 16; i += 4) {
+        faces.push_back({i + 1, i + 3, i + 7, i + 5});
+        faces.push_back({i, i + 4, i + 6, i + 2});
+        faces.push_back({i, i + 1, i + 5, i + 4});
+        faces.push_back({i + 2, i + 6, i + 7, i + 3});
+    }
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < faces.size(); ++i) names.push_back("face" + std::to_string(i));
+    const Primitive bar{make_polyhedron(points, faces, names), "bar", "", 0};
+    BuildReport report;
+    CHECK(volmesh::volume(built({{bar}, leaf(0)}, 0.5, &report)) == exactly(17));
+    CHECK(report.warnings.empty());
+    const Primitive block = box("block", {-1, -4, -1}, {6, 5, 2});
+    CHECK(volmesh::volume(built({{block, bar}, pair_of(Operation::difference)}, 0.7)) ==
+          exactly(7 * 9 * 3 - 17));
+    CHECK(volmesh::volume(built({{bar, block}, pair_of(Operation::intersection)}, 0.7)) == exactly(17));
+    const TetMesh parts = built({{bar, block}, pair_of(Operation::fragment)}, 0.7);
+    CHECK(volume_of(parts, "bar") == exactly(17));
+    CHECK(volume_of(parts, "block") == exactly(7 * 9 * 3 - 17));
+}
