@@ -14,7 +14,7 @@ namespace {
 
 constexpr double too_long = 1.4;        // of the wanted length
 constexpr double chord_reach = 0.5;     // of the edge's length: no surface is further from its middle
-constexpr double least_distance = 0.2;  // of the edge's length: of a new vertex from those across
+constexpr double least_distance = 0.2;  // of the wanted length: of a new vertex from those across
 constexpr double worth_halving = 0.05;  // quality: halves of worse triangles are worse still
 constexpr double flat_triangle = 0.35;  // height over longest edge
 
@@ -43,8 +43,9 @@ VertexKind kind_on_edge(const Session& session, Index a, Index b, std::span<cons
 /// Whether a vertex there comes too close to one across the edge. Halving such flat triangles makes ever more
 /// of them.
 bool crowds_an_apex(const Net& net, Index a, Index b, const Vec3& p) {
+    const double least = least_distance * std::min(net.length(a, b), net.wanted_length(a, b));
     return std::ranges::any_of(net.triangles_at(a, b), [&](Index t) {
-        return (net.point(apex(net.triangle(t), a, b)) - p).norm() < least_distance * net.length(a, b);
+        return (net.point(apex(net.triangle(t), a, b)) - p).norm() < least;
     });
 }
 

@@ -332,3 +332,17 @@ TEST_CASE("a polyhedron that overlaps itself is what it winds around") {
     CHECK(volume_of(parts, "bar") == exactly(17));
     CHECK(volume_of(parts, "block") == exactly(7 * 9 * 3 - 17));
 }
+
+TEST_CASE("no edge is much longer than the size, whatever triangles the surfaces come with") {
+    const Model model = read_model(MAILLE_SOURCE_DIR "/examples/bracket.csg");
+    for (const double size : {4.0, 5.0, 6.0}) {
+        CAPTURE(size);
+        const TetMesh mesh = built(model, size);
+        double longest = 0;
+        for (const auto e : mesh.edges()) {
+            const auto [a, b] = mesh.edge_vertices(e);
+            longest = std::max(longest, (mesh.point(a) - mesh.point(b)).norm());
+        }
+        CHECK(longest < 2 * size);
+    }
+}
