@@ -255,9 +255,6 @@ class ModelMaker {
     std::map<std::uint32_t, Location> halfspace_at_;
 };
 
-/// What OpenSCAD's six digits and a few transforms leave of places, relative to the size of the model.
-constexpr double written_precision = 1e-5;
-
 }  // namespace
 
 Model parse_model(std::string_view text, const std::string& name, Facets facets) {

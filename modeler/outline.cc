@@ -95,10 +95,6 @@ Outline clip(Grid& grid, ClipperLib::ClipType type, const Outline& subject, std:
     return grid.outline(tree);
 }
 
-/// What is nearer than that to each other in shapes meets, so that six digits are enough to write what is
-/// flush: relative to the diagonal of them all.
-constexpr double written_precision = 1e-5;
-
 std::vector<Outline> made_flush(std::span<const Outline> shapes) {
     Eigen::AlignedBox2d box;
     for (const Outline& shape : shapes)

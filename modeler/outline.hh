@@ -9,6 +9,10 @@
 
 namespace maille::modeler {
 
+/// What OpenSCAD's six digits and a few transforms leave of places, relative to the diagonal of what they are
+/// part of: nothing nearer than that is meant to be apart.
+inline constexpr double written_precision = 1e-5;
+
 /// A place in the plane.
 using Point2 = Eigen::Vector2d;
 /// A closed polygon by its corners.
@@ -25,9 +29,9 @@ using Outline = std::vector<PlaneRegion>;
 Outline make_outline(const std::vector<PlaneLoop>& loops);
 
 /// Union, intersection, or the first without the others (`operation` is one of these). Corners that are
-/// nearer to each other, or to an edge, than 1e-5 of the shapes' diagonal meet: what six digits left between
-/// shapes that are meant to be flush. Other corners keep their coordinates to the bit; those where edges
-/// cross are right to about 1e-15 of the greatest.
+/// nearer to each other, or to an edge, than `written_precision` of the shapes' diagonal meet: what six
+/// digits left between shapes that are meant to be flush. Other corners keep their coordinates to the bit;
+/// those where edges cross are right to about 1e-15 of the greatest.
 Outline combine(Operation operation, std::span<const Outline> shapes);
 
 /// Affine image; the map must not be singular.
