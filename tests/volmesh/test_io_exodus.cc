@@ -78,6 +78,10 @@ TEST_CASE("Exodus files built on HDF5 are read as those built on NetCDF") {
     }
 }
 
+TEST_CASE("a damaged file that crashes the library of Exodus is refused") {
+    CHECK_THROWS_AS(read_mesh(MAILLE_SOURCE_DIR "/tests/fuzz/corpus/exodus/smashing.e"), InputError);
+}
+
 TEST_CASE("damaged Exodus files built on HDF5 are read or refused") {
     const test::TemporaryFolder folder;
     write_by_library(folder / "a.e", EX_NETCDF4);

@@ -294,10 +294,6 @@ MeshDraft ExodusReader::read() {
     return std::move(draft_);
 }
 
-bool is_hdf5(const Path& path) {
-    return InputFile(path).text().starts_with("\x89HDF");
-}
-
 /// Far more than any sound file takes.
 void limit_processor_time(std::uintmax_t file_bytes) {
     const rlim_t seconds = 20 + file_bytes / 1'000'000;
@@ -305,8 +301,8 @@ void limit_processor_time(std::uintmax_t file_bytes) {
     ::setrlimit(RLIMIT_CPU, &limit);
 }
 
-/// HDF5's library may crash on a damaged file, or never end. So another process reads it first: what that one
-/// survives, this one does, which reads the same.
+/// The libraries of Exodus and HDF5 may crash on a damaged file, or never end. So another process reads it
+/// first: what that one survives, this one does, which reads the same.
 void read_in_another_process(const Path& path) {
     const std::uintmax_t file_bytes = std::filesystem::file_size(path);
     const pid_t child = ::fork();
@@ -326,13 +322,14 @@ void read_in_another_process(const Path& path) {
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        throw InputError(path.string() + ": cannot be read: it is damaged, so that HDF5's library fails");
+        throw InputError(path.string() +
+                         ": cannot be read: it is damaged, so that the library of Exodus fails");
 }
 
 }  // namespace
 
 TetMesh read_exodus(const Path& path) {
-    if (is_hdf5(path)) read_in_another_process(path);
+    read_in_another_process(path);
     return assemble(ExodusReader(path).read(), path);
 }
 
