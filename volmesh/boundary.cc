@@ -2,36 +2,22 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "volmesh/tet_ranges.hh"
+#include "volmesh/union_find.hh"
 
 namespace maille::volmesh {
 
 namespace {
 
-using Index = TetMesh::Index;
+/// Corners of the faces; those that are one vertex of the surface are joined.
+using Corners = UnionFind;
 
-/// Corners of the faces, 3 * face + i; those that are one vertex of the surface are joined.
-class Corners {
-  public:
-    explicit Corners(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-    std::size_t find(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    /// The lower one stands for both.
-    void join(std::size_t i, std::size_t j) {
-        const auto [low, high] = std::minmax({find(i), find(j)});
-        parent_[high] = low;
-    }
-
-  private:
-    std::vector<std::size_t> parent_;
-};
+std::uint32_t corner_of(std::size_t face, std::size_t i) {
+    return static_cast<std::uint32_t>(3 * face + i);
+}
 
 /// The boundary face that one comes to by turning about the edge a-b through the cells, from the one given.
 HalffaceHandle across_edge(const TetMesh& mesh, HalffaceHandle from, VertexHandle a, VertexHandle b) {
@@ -56,8 +42,8 @@ int place(const std::array<VertexHandle, 3>& vertices, VertexHandle v) {
 void join_at(const TetMesh& mesh, const std::vector<HalffaceHandle>& faces, Corners& corners, std::size_t f,
              std::size_t g, std::array<VertexHandle, 2> edge) {
     for (VertexHandle v : edge)
-        corners.join(3 * f + place(mesh.halfface_vertices(faces[f]), v),
-                     3 * g + place(mesh.halfface_vertices(faces[g]), v));
+        corners.unite(corner_of(f, place(mesh.halfface_vertices(faces[f]), v)),
+                      corner_of(g, place(mesh.halfface_vertices(faces[g]), v)));
 }
 
 /// Of all boundary faces: what turning through the cells joins.
@@ -102,7 +88,7 @@ ExtractedSurface surface_of(const TetMesh& mesh, std::vector<HalffaceHandle> hal
         const auto vertices = mesh.halfface_vertices(faces[f]);
         std::array<TriMesh::VertexHandle, 3> face;
         for (int i = 0; i < 3; ++i) {
-            TriMesh::VertexHandle& vertex = vertex_of[corners.find(3 * f + i)];
+            TriMesh::VertexHandle& vertex = vertex_of[corners.find(corner_of(f, i))];
             if (!vertex.is_valid()) vertex = add_vertex(vertices[i]);
             face[i] = vertex;
         }
