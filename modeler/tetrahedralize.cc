@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <fmt/core.h>
 
+#include "modeler/tetgen_order.hh"
 #include "modeler/tetgen_process.hh"
 #include "modeler/tetrahedralize_check.hh"
 #include "volmesh/error.hh"
@@ -40,6 +41,8 @@ constexpr std::array<Rung, 8> ladder{{
     {.refine = false, .words = "without refinement"},
     {.refine = false, .jitter = 1e-8, .words = "without refinement, points shifted by 1e-8 of the diagonal"},
 }};
+
+constexpr std::size_t most_cells_in_cache = 100'000;
 
 /// Volume of a regular tetrahedron: what TetGen may make the largest.
 double volume_of_size(double size) {
@@ -107,6 +110,7 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
     }
     Answer answer = tetgen::run(request);
     tetgen::check_complete(answer, request);
+    if (answer.cells.size() > most_cells_in_cache) tetgen::order_along_curve(answer, request.points.size());
     std::ranges::copy(complex.points, answer.points.begin());
     const std::vector<Region> regions = tetgen::find_regions(answer, complex);
     tetgen::check_geometry(answer, regions, complex);

@@ -14,16 +14,14 @@ using Index = TetMesh::Index;
 
 constexpr int bits = 21;  // three times that fit in 64
 
-/// The handles in the order of their places on the curve; those at one place in ascending order.
 template <class H, class PlaceOf>
-std::vector<H> along_curve(const std::vector<H>& handles, const PlaceOf& place_of) {
-    std::vector<std::pair<std::uint64_t, H>> keys;
-    keys.reserve(handles.size());
-    for (H h : handles) keys.emplace_back(hilbert_index(place_of(h)), h);
-    tbb::parallel_sort(keys.begin(), keys.end());
+std::vector<H> along_curve(const std::vector<H>& handles, const Eigen::AlignedBox3d& box,
+                           const PlaceOf& place_of) {
     std::vector<H> sorted;
-    sorted.reserve(keys.size());
-    for (const auto& key : keys) sorted.push_back(key.second);
+    sorted.reserve(handles.size());
+    for (const Index i :
+         order_along_curve(handles.size(), box, [&](Index h) { return place_of(handles[h]); }))
+        sorted.push_back(handles[i]);
     return sorted;
 }
 
@@ -66,6 +64,17 @@ std::uint64_t hilbert_index(const Point& place) {
     return index;
 }
 
+std::vector<Index> order_along_curve(std::size_t n, const Eigen::AlignedBox3d& box,
+                                     const std::function<Point(Index)>& place_of) {
+    const double size = n == 0 ? 1 : std::max(box.sizes().maxCoeff(), 1e-300);
+    std::vector<std::pair<std::uint64_t, Index>> keys(n);
+    for (Index i = 0; i < n; ++i) keys[i] = {hilbert_index((place_of(i) - box.min()) / size), i};
+    tbb::parallel_sort(keys.begin(), keys.end());
+    std::vector<Index> order(n);
+    std::ranges::transform(keys, order.begin(), [](const auto& key) { return key.second; });
+    return order;
+}
+
 IndexMaps renumber(TetMesh& mesh) {
     std::vector<VertexHandle> vertices;
     std::vector<CellHandle> cells;
@@ -75,12 +84,10 @@ IndexMaps renumber(TetMesh& mesh) {
         box.extend(mesh.point(v));
     }
     for (const CellHandle c : mesh.cells()) cells.push_back(c);
-    const double size = vertices.empty() ? 1 : std::max(box.sizes().maxCoeff(), 1e-300);
-    const auto scaled = [&](const Point& p) { return Point((p - box.min()) / size); };
-    vertices = along_curve(vertices, [&](VertexHandle v) { return scaled(mesh.point(v)); });
-    cells = along_curve(cells, [&](CellHandle c) {
+    vertices = along_curve(vertices, box, [&](VertexHandle v) { return mesh.point(v); });
+    cells = along_curve(cells, box, [&](CellHandle c) {
         const auto p = mesh.cell_points(c);
-        return scaled((p[0] + p[1] + p[2] + p[3]) / 4);
+        return Point((p[0] + p[1] + p[2] + p[3]) / 4);
     });
 
     TetMesh sorted = mesh.taken(vertices, cells);

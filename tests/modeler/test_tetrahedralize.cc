@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -5,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <thread>
 
@@ -165,6 +167,31 @@ TEST_CASE("the neighbours that TetGen tells are those that the cells have") {
               found.opposite_halfface_handle(volmesh::HalffaceHandle(hf)).idx());
     std::swap(mesh.neighbors.front(), mesh.neighbors.back());
     CHECK_THROWS_AS(linked_cells(mesh), InputError);
+}
+
+TEST_CASE("a large mesh is numbered along a curve, but for the surface's vertices") {
+    FacetComplex box;
+    add_box(box, {0, 0, 0}, {1, 1, 1}, outside, 0);
+    for (int i = 0; i < 5; ++i) box = quartered(box);
+    const ComplexMesh mesh = tetrahedralize(box, std::array{0.05});
+    REQUIRE(mesh.cells.size() > 100'000);
+    CHECK(std::ranges::equal(box.points, std::span(mesh.points).first(box.points.size())));
+    CHECK(volume_of(mesh, 0) == doctest::Approx(1).epsilon(1e-12));
+    for (std::size_t f = 0; f < mesh.facets.size(); ++f)
+        REQUIRE(std::ranges::is_permutation(mesh.facets[f], box.facets[mesh.parents[f]].vertices));
+    const auto told = linked_cells(mesh);
+    const auto found = volmesh::TetMesh::from_cells(mesh.points, mesh.cells);
+    CHECK(volmesh::validate(found).ok());
+    std::size_t wrong = 0;
+    double step = 0;
+    for (std::uint32_t hf = 0; hf < found.n_halffaces(); ++hf) {
+        const auto beyond = found.opposite_halfface_handle(volmesh::HalffaceHandle(hf));
+        wrong += told[hf / 4].neighbors[hf % 4] != beyond.idx();
+        if (beyond.is_valid()) step += std::abs(double(hf / 4) - beyond.idx() / 4) / found.n_halffaces();
+    }
+    CHECK(wrong == 0);
+    // At random the mean step to a neighbour would be a third of all cells.
+    CHECK(step < static_cast<double>(found.n_cells()) / 40);
 }
 
 TEST_CASE("a surface that does not close is told") {
