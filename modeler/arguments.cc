@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "modeler/makes_nothing.hh"
+
 namespace maille::modeler {
 namespace {
 
@@ -29,6 +31,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string_view kind(const Value& value) {
     constexpr std::string_view names[] = {"a number", "a boolean", "a string", "a vector", "undef"};
     return names[value.data.index()];
+}
+
+InputError not_positive(const Arguments& arguments, std::string_view parameter, double value) {
+    return arguments.error(parameter, fmt::format("'{}' must be greater than 0, not {}", parameter, value));
 }
 
 }  // namespace
@@ -92,13 +98,19 @@ double Arguments::number(std::string_view parameter, double otherwise) const {
 
 double Arguments::positive(std::string_view parameter) const {
     const double result = number(parameter);
-    if (!(result > 0))
-        throw error(parameter, fmt::format("'{}' must be greater than 0, not {}", parameter, result));
+    if (!(result > 0)) throw not_positive(*this, parameter, result);
     return result;
 }
 
 double Arguments::positive(std::string_view parameter, double otherwise) const {
     return has(parameter) ? positive(parameter) : otherwise;
+}
+
+double Arguments::extent(std::string_view parameter, std::optional<double> otherwise) const {
+    if (otherwise && !has(parameter)) return *otherwise;
+    const double result = number(parameter);
+    if (!(result > 0)) throw MakesNothing(not_positive(*this, parameter, result));
+    return result;
 }
 
 bool Arguments::boolean(std::string_view parameter, bool otherwise) const {
@@ -131,8 +143,12 @@ const std::vector<Value>& Arguments::list(std::string_view parameter) const {
 }
 
 double Arguments::number(const Value& value, std::string_view what) const {
-    if (const double* result = std::get_if<double>(&value.data)) return *result;
-    throw error(value.at, fmt::format("'{}' must be a number, not {}", what, kind(value)));
+    const double* result = std::get_if<double>(&value.data);
+    if (result == nullptr)
+        throw error(value.at, fmt::format("'{}' must be a number, not {}", what, kind(value)));
+    if (!std::isfinite(*result))
+        throw MakesNothing(error(value.at, fmt::format("'{}' must be finite, not {}", what, *result)));
+    return *result;
 }
 
 Point Arguments::vector(const Value& value, std::string_view what, std::optional<double> third) const {

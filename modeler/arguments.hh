@@ -28,6 +28,8 @@ class Arguments {
     double number(std::string_view parameter, double otherwise) const;
     double positive(std::string_view parameter) const;
     double positive(std::string_view parameter, double otherwise) const;
+    /// A number without which the node MakesNothing where it is not greater than 0.
+    double extent(std::string_view parameter, std::optional<double> otherwise = std::nullopt) const;
     bool boolean(std::string_view parameter, bool otherwise) const;
     /// A whole number of at least `least` and at most `most`.
     int count(std::string_view parameter, int least, int most) const;

@@ -14,6 +14,7 @@
 #include "modeler/language_resize.hh"
 #include "modeler/language_solids.hh"
 #include "modeler/language_transforms.hh"
+#include "modeler/makes_nothing.hh"
 #include "modeler/model.hh"
 #include "modeler/name_table.hh"
 #include "modeler/pending_halfspace.hh"
@@ -89,10 +90,7 @@ class ModelMaker {
 
   private:
     std::vector<CsgTree> trees_of(std::span<const Node> nodes, const Context& context) {
-        std::vector<CsgTree> trees;
-        for (const Node& node : nodes)
-            if (!node.ignored) trees.push_back(tree_of(node, context));
-        return trees;
+        return made_of(nodes, [&](const Node& node) { return tree_of(node, context); });
     }
 
     CsgTree tree_of(const Node& node, const Context& context) {
@@ -177,8 +175,8 @@ class ModelMaker {
         Context result = context;
         result.placement.frame = context.placement.frame * map;
         if (!is_regular(result.placement.frame))
-            throw located_error(file_, node.at,
-                                fmt::format("'{}' flattens its children or has no inverse", node.name));
+            throw MakesNothing(located_error(
+                file_, node.at, fmt::format("'{}' flattens its children or has no inverse", node.name)));
         return result;
     }
 

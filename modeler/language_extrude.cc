@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "modeler/language_facets.hh"
 #include "modeler/language_outline.hh"
 #include "modeler/language_transforms.hh"
+#include "modeler/makes_nothing.hh"
 #include "modeler/name_table.hh"
 #include "modeler/shape_frame.hh"
 #include "modeler/shape_turned.hh"
@@ -94,10 +96,9 @@ class PartwiseExtruder {
     ShapeTree extrude(const std::vector<Node>& nodes,
                       const Eigen::Affine2d& map = Eigen::Affine2d::Identity(),
                       Operation operation = Operation::join) const {
-        ShapeTree tree{.operation = operation, .shape = nullptr};
-        for (const Node& node : nodes)
-            if (!node.ignored) tree.children.push_back(extrude(node, map));
-        return tree;
+        return {.operation = operation, .shape = nullptr, .children = made_of(nodes, [&](const Node& node) {
+                                                              return extrude(node, map);
+                                                          })};
     }
 
   private:
@@ -134,7 +135,7 @@ Eigen::Affine3d leaning(const LinearExtrusion& extrusion, const Eigen::Affine2d&
 
 LinearExtrusion linear_extrusion(const Arguments& arguments) {
     LinearExtrusion extrusion;
-    extrusion.height = arguments.positive("height");
+    extrusion.height = arguments.extent("height");
     extrusion.center = arguments.boolean("center", false);
     extrusion.twist = arguments.number("twist", 0);
     if (arguments.is_vector("scale"))
@@ -179,27 +180,33 @@ ShapeTree linear(const Node& node, const std::string& file, const Placement& pla
     return solids_of(arguments, outline, extrude);
 }
 
-/// Extends `reach`, distances from the axis with their sign, by those of all the shapes before they are
-/// combined.
-void extend_reach(Eigen::AlignedBox<double, 1>& reach, const std::vector<Node>& nodes,
-                  const std::string& file, const Eigen::Affine2d& map) {
-    const auto extend = [&](double x) { reach.extend(Eigen::Vector<double, 1>(x)); };
-    for (const Node& node : nodes) {
-        if (node.ignored) continue;
-        if (find_flat_operation(node.name)) {
-            extend_reach(reach, node.children, file, map);
-        } else if (find_transform(node.name)) {
-            extend_reach(reach, node.children, file, map * flat_map(node, file));
-        } else if (node.name == "circle") {
-            const double r = radius_of_round(Arguments(node, file, {"r", "d"}));
-            const double across = r * map.linear().row(0).norm();
-            extend(map.translation().x() - across);
-            extend(map.translation().x() + across);
-        } else {
-            for (const PlaneRegion& region : transformed(outline_of(node, file), map))
-                for (const Point2& p : region.front()) extend(p.x());
-        }
+using Interval = Eigen::AlignedBox<double, 1>;
+
+Interval interval(double low, double high) {
+    return {Eigen::Vector<double, 1>(low), Eigen::Vector<double, 1>(high)};
+}
+
+Interval reach_of(std::span<const Node> nodes, const std::string& file, const Eigen::Affine2d& map);
+
+Interval reach_of(const Node& node, const std::string& file, const Eigen::Affine2d& map) {
+    if (find_flat_operation(node.name)) return reach_of(node.children, file, map);
+    if (find_transform(node.name)) return reach_of(node.children, file, map * flat_map(node, file));
+    if (node.name == "circle") {
+        const double across = radius_of_round(Arguments(node, file, {"r", "d"})) * map.linear().row(0).norm();
+        return interval(map.translation().x() - across, map.translation().x() + across);
     }
+    Interval reach;
+    for (const PlaneRegion& region : transformed(outline_of(node, file), map))
+        for (const Point2& p : region.front()) reach.extend(interval(p.x(), p.x()));
+    return reach;
+}
+
+/// From where to where all the shapes lie, before they are combined: distances from the axis with their sign.
+Interval reach_of(std::span<const Node> nodes, const std::string& file, const Eigen::Affine2d& map) {
+    Interval reach;
+    for (const Interval& one : made_of(nodes, [&](const Node& node) { return reach_of(node, file, map); }))
+        reach.extend(one);
+    return reach;
 }
 
 /// The whole circle as a profile.
@@ -214,8 +221,7 @@ ShapeTree rotate_round(const Arguments& arguments, const std::string& file, cons
     const auto extrude = [&](const PlaneRegion& region, std::size_t first_side) {
         return rotate_extrude_round(region, angle, first_side, placement.frame);
     };
-    Eigen::AlignedBox<double, 1> reach;
-    extend_reach(reach, nodes, file, Eigen::Affine2d::Identity());
+    const Interval reach = reach_of(nodes, file, Eigen::Affine2d::Identity());
     const bool on_one_side = reach.isEmpty() || reach.min()[0] >= 0 || reach.max()[0] <= 0;
     if (!on_one_side || !has_round_circle(nodes, file, placement.facets))
         return solids_of(arguments, outline_of(nodes, file), extrude);
@@ -238,7 +244,7 @@ ShapeTree rotate_round(const Arguments& arguments, const std::string& file, cons
 ShapeTree rotate(const Node& node, const std::string& file, const Placement& placement) {
     const Arguments arguments(node, file, {"angle"});
     const double given = std::clamp(arguments.number("angle", 360), -360.0, 360.0);
-    if (given == 0) throw arguments.error("angle", "the angle must not be 0");
+    if (given == 0) throw MakesNothing(arguments.error("angle", "the angle must not be 0"));
     const double angle = std::abs(given) == 360 ? 360 : given;
     const FacetSettings settings = facet_settings(arguments);
     if (!keeps_facets(placement.facets, settings)) return rotate_round(arguments, file, placement, angle);

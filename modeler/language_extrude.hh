@@ -11,7 +11,7 @@ namespace maille::modeler {
 
 /// A boolean expression over shapes: what one node of the language stands for.
 struct ShapeTree {
-    Operation operation = Operation::leaf;
+    Operation operation = Operation::join;
     std::shared_ptr<const Shape> shape;  ///< leaf only
     std::vector<ShapeTree> children{};
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "modeler/makes_nothing.hh"
+
 namespace maille::modeler {
 
 FacetSettings facet_settings(const Arguments& arguments) {
@@ -36,7 +38,9 @@ double radius(const Arguments& arguments, std::string_view radius_name, std::str
 double radius_of_round(const Arguments& arguments) {
     const bool given = arguments.has("r") || arguments.has("d");
     const double r = given ? radius(arguments, "r", "d") : 1;
-    if (!(r > 0)) throw arguments.error(arguments.has("d") ? "d" : "r", "the radius must be greater than 0");
+    if (!(r > 0))
+        throw MakesNothing(
+            arguments.error(arguments.has("d") ? "d" : "r", "the radius must be greater than 0"));
     return r;
 }
 

@@ -10,6 +10,7 @@
 #include "modeler/language_facets.hh"
 #include "modeler/language_resize.hh"
 #include "modeler/language_transforms.hh"
+#include "modeler/makes_nothing.hh"
 #include "modeler/name_table.hh"
 
 namespace maille::modeler {
@@ -37,7 +38,8 @@ Outline square(const Node& node, const std::string& file) {
         size = arguments.vector("size", 0).head<2>();
     else if (arguments.has("size"))
         size.setConstant(arguments.number("size"));
-    if (!(size.minCoeff() > 0)) throw arguments.error("size", "every side must be longer than 0");
+    if (!(size.minCoeff() > 0))
+        throw MakesNothing(arguments.error("size", "every side must be longer than 0"));
     const Point2 low = arguments.boolean("center", false) ? Point2(-size / 2) : Point2::Zero();
     const Point2 high = low + size;
     return {{{low, {high.x(), low.y()}, high, {low.x(), high.y()}}}};
@@ -65,7 +67,7 @@ Outline polygon(const Node& node, const std::string& file) {
         for (const Value& path : arguments.list("paths")) loops.push_back(path_of(arguments, path, points));
     if (loops.empty()) loops.push_back(std::move(points));
     Outline shape = make_outline(loops);
-    if (shape.empty()) throw arguments.error("points", "the polygon has no area");
+    if (shape.empty()) throw MakesNothing(arguments.error("points", "the polygon has no area"));
     return shape;
 }
 
@@ -83,10 +85,7 @@ Outline offset_of(const Node& node, const std::string& file) {
 }
 
 std::vector<Outline> outlines_of(const std::vector<Node>& nodes, const std::string& file) {
-    std::vector<Outline> shapes;
-    for (const Node& node : nodes)
-        if (!node.ignored) shapes.push_back(outline_of(node, file));
-    return shapes;
+    return made_of(nodes, [&](const Node& node) { return outline_of(node, file); });
 }
 
 Outline hull(const Node& node, const std::string& file) {
@@ -150,8 +149,8 @@ Eigen::Affine2d flat_map(const Node& node, const std::string& file) {
     Eigen::Affine3d regular = Eigen::Affine3d::Identity();
     regular.linear().topLeftCorner<2, 2>() = flat.linear();
     if (!is_regular(regular))
-        throw located_error(file, node.at,
-                            fmt::format("'{}' flattens its children or has no inverse", node.name));
+        throw MakesNothing(located_error(
+            file, node.at, fmt::format("'{}' flattens its children or has no inverse", node.name)));
     return flat;
 }
 

@@ -9,6 +9,7 @@
 #include "modeler/arguments.hh"
 #include "modeler/language_facets.hh"
 #include "modeler/language_import.hh"
+#include "modeler/makes_nothing.hh"
 #include "modeler/name_table.hh"
 #include "modeler/shapes.hh"
 
@@ -28,7 +29,8 @@ ShapePointer cube(const Node& node, const std::string& file, const Placement& pl
         size = arguments.vector("size");
     else if (arguments.has("size"))
         size.setConstant(arguments.number("size"));
-    if (!(size.minCoeff() > 0)) throw arguments.error("size", "every side must be longer than 0");
+    if (!(size.minCoeff() > 0))
+        throw MakesNothing(arguments.error("size", "every side must be longer than 0"));
     const bool center = arguments.boolean("center", false);
     return at_node(arguments, [&] { return make_cube(size, center, placement.frame); });
 }
@@ -63,12 +65,13 @@ std::pair<double, double> cylinder_radii(const Arguments& arguments) {
 
 ShapePointer cylinder(const Node& node, const std::string& file, const Placement& placement) {
     const Arguments arguments(node, file, {"h", "r1", "r2", "center", "r", "d", "d1", "d2"});
-    const double height = arguments.positive("h", 1);
+    const double height = arguments.extent("h", 1);
     const auto [bottom, top] = cylinder_radii(arguments);
     if (!(bottom >= 0 && top >= 0))
-        throw arguments.error(node.at,
-                              fmt::format("a radius must not be negative, not {}", std::min(bottom, top)));
-    if (bottom == 0 && top == 0) throw arguments.error(node.at, "the radius must be greater than 0");
+        throw MakesNothing(arguments.error(
+            node.at, fmt::format("a radius must not be negative, not {}", std::min(bottom, top))));
+    if (bottom == 0 && top == 0)
+        throw MakesNothing(arguments.error(node.at, "the radius must be greater than 0"));
     const bool center = arguments.boolean("center", false);
     const FacetSettings settings = facet_settings(arguments);
     return at_node(arguments, [&, bottom = bottom, top = top] {
@@ -154,6 +157,7 @@ ShapePointer polyhedron(const Node& node, const std::string& file, const Placeme
         solid.names.push_back(fmt::format("face{}", solid.faces.size()));
         solid.faces.push_back(polyhedron_face(arguments, face, solid.points.size()));
     }
+    if (solid.faces.empty()) throw MakesNothing(arguments.error("faces", "there are no faces"));
     return at_node(arguments, [&] { return shape_of(std::move(solid), placement.frame); });
 }
 

@@ -1,6 +1,7 @@
 #include "modeler/parser.hh"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -183,6 +184,9 @@ class Parser {
         if (token.text == "true" || token.text == "false")
             return {.data = token.text == "true", .at = token.at};
         if (token.text == "undef") return {.data = std::monostate{}, .at = token.at};
+        // OpenSCAD writes what it divided by 0.
+        if (token.text == "inf") return {.data = std::numeric_limits<double>::infinity(), .at = token.at};
+        if (token.text == "nan") return {.data = std::numeric_limits<double>::quiet_NaN(), .at = token.at};
         if (token.text == "pi" || token.text == "PI") return {.data = std::numbers::pi, .at = token.at};
         throw located_error(
             file_, token.at,

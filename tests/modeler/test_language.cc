@@ -170,6 +170,48 @@ TEST_CASE("booleans are OpenSCAD's") {
     check_solid("intersection() { union() { cube(2); group() {} } }", a);
 }
 
+TEST_CASE("what OpenSCAD makes nothing of is nothing, and changes nothing else") {
+    const auto cube = [](const Point& p) { return in_box(p, {0, 0, 0}, {1, 1, 1}); };
+    for (const std::string nothing :
+         {"cube(0);",
+          "cube([2, -1, 2]);",
+          "cube([inf, 2, 2]);",
+          "sphere(r = 0);",
+          "sphere(-2);",
+          "cylinder(h = 0, r = 2);",
+          "cylinder(h = -1, r = 2);",
+          "cylinder(h = 1, r1 = 0, r2 = 0);",
+          "cylinder(h = 1, r1 = -1, r2 = 2);",
+          "scale([2, 0, 2]) sphere(2);",
+          "polyhedron([[0, 0, 0]], []);",
+          "multmatrix([[inf, 0, 0, 0], [nan, 1, 0, 0], [nan, 0, 1, 0], [0, 0, 0, 1]]) cube(3);",
+          "linear_extrude(height = 0) square(2);",
+          "linear_extrude(height = 2) circle(0);",
+          "linear_extrude(height = 2) intersection() { square(2); square([0, 2]); }",
+          "linear_extrude(height = 2) { polygon([]); polygon([[0, 0], [1, 1]]); }",
+          "linear_extrude(height = 2) scale([0, 1]) square(2);",
+          "rotate_extrude(angle = 0) square(2);",
+          "rotate_extrude() translate([2, 0]) circle(0);",
+          "hull() { sphere(0); cube(0); }",
+          "resize([2, 2, 2]) sphere(0);",
+          "union() { cube(0); group() { sphere(0); } }"}) {
+        check_solid("cube(1); " + nothing, cube);
+        check_solid("difference() { cube(1); " + nothing + " }", cube);
+        CHECK(message_of("intersection() { cube(1); " + nothing + " }").ends_with("it has no solid"));
+        CHECK(message_of("difference() { " + nothing + " sphere(1); }").ends_with("it has no solid"));
+        CHECK(message_of(nothing) != "no error");
+    }
+    check_solid("hull() { cube(1); sphere(0); }", cube);
+    check_solid("linear_extrude(height = 1) { square(1); square(0); translate([0, 1]) circle(0); }", cube);
+    check_solid("linear_extrude(height = 1) difference() { square(1); circle(0); }", cube);
+    const auto pipe = [](const Point& p) {
+        const double r = std::hypot(p.x(), p.y());
+        return r >= 1 && r <= 2 && p.z() >= 0 && p.z() <= 1;
+    };
+    check_solid("rotate_extrude() { translate([1, 0]) square(1); circle(0); scale([0, 1]) square(3); }",
+                pipe);
+}
+
 TEST_CASE("modifiers: ignored objects are gone, the root is alone") {
     const auto cube = [](const Point& p) { return in_box(p, {0, 0, 0}, {1, 1, 1}); };
     check_solid("cube(1); %sphere(2); *sphere(2);", cube);
