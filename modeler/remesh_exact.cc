@@ -50,6 +50,13 @@ bool clearly_apart(const Vec3& common, const std::array<Vec3, 2>& a, const std::
     return parts((a0 + a1).normalized() - (b0 + b1).normalized()) || parts(a0 + a1 - b0 - b1);
 }
 
+/// Seen in floating point, with room to spare for the rounding of two products and their difference.
+bool clearly_has_area(const Corners& c) {
+    const Vec3 a = c[1] - c[0];
+    const Vec3 b = c[2] - c[0];
+    return a.cross(b).cwiseAbs().maxCoeff() > 1e-14 * a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
+}
+
 bool folded(const Vec3& s0, const Vec3& s1, const Vec3& a, const Vec3& b) {
     const auto p0 = exact(s0);
     const auto p1 = exact(s1);
@@ -61,9 +68,9 @@ bool folded(const Vec3& s0, const Vec3& s1, const Vec3& a, const Vec3& b) {
 
 bool collide_beyond(const Vec3& common, const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b) {
     if (clearly_apart(common, a, b)) return false;
+    if (has_no_area({common, a[0], a[1]}) || has_no_area({common, b[0], b[1]})) return false;
     const Kernel::Triangle_3 first(exact(common), exact(a[0]), exact(a[1]));
     const Kernel::Triangle_3 second(exact(common), exact(b[0]), exact(b[1]));
-    if (first.is_degenerate() || second.is_degenerate()) return false;
     return CGAL::do_intersect(Kernel::Segment_3(first[1], first[2]), second) ||
            CGAL::do_intersect(Kernel::Segment_3(second[1], second[2]), first);
 }
@@ -78,8 +85,8 @@ bool collide_apart(const Corners& a, const Corners& b) {
     if (clearly_apart(a, b)) return false;
     const Kernel::Triangle_3 first = exact(a);
     const Kernel::Triangle_3 second = exact(b);
-    if (first.is_degenerate()) return !second.is_degenerate() && an_edge_meets(first, second);
-    if (second.is_degenerate()) return an_edge_meets(second, first);
+    if (has_no_area(a)) return !has_no_area(b) && an_edge_meets(first, second);
+    if (has_no_area(b)) return an_edge_meets(second, first);
     return CGAL::do_intersect(first, second);
 }
 
@@ -116,7 +123,7 @@ bool collide(const PlacedTriangle& a, const PlacedTriangle& b) {
 }
 
 bool has_no_area(const Corners& corners) {
-    return exact(corners).is_degenerate();
+    return !clearly_has_area(corners) && exact(corners).is_degenerate();
 }
 
 bool is_inside(const std::array<Vec3, 4>& t, const Vec3& p) {
