@@ -31,7 +31,7 @@ double smallest_angle(const Net& net) {
 
 /// One round of all passes; the number of changes.
 std::size_t work(Session& session) {
-    session.net.rebuild_grid();
+    session.net.pack_tree();
     std::size_t changes = collapse_edges(session);
     changes += project_vertices(session);
     changes += flip_edges(session);
@@ -52,7 +52,7 @@ RemeshReport remesh(FacetComplex& complex, const RemeshGeometry& geometry, const
     session.report.smallest_angle_before = smallest_angle(session.net);
 
     // Not before the slivers are gone can gaps be told from them.
-    session.net.rebuild_grid();
+    session.net.pack_tree();
     collapse_edges(session);
     bool is_strict = false;
     std::size_t before = std::numeric_limits<std::size_t>::max();

@@ -60,7 +60,7 @@ bool meets_a_neighbour(const Net& net, const std::vector<PlacedTriangle>& added,
     std::vector<Index> nearby;
     for (std::size_t i = 0; i < added.size(); ++i) {
         nearby.clear();
-        net.grid().collect(added[i].corners, nearby);
+        net.tree().collect(added[i].corners, nearby);
         for (const Index t : nearby) {
             if (in_one_plane(net.patch(change.added[i]), net.patch(t)) ||
                 std::ranges::find(change.removed, t) != change.removed.end())
@@ -99,7 +99,7 @@ bool sweeps_over_a_vertex(const Net& net, const Change& change) {
         Eigen::AlignedBox3d box;
         for (const Vec3& p : tetrahedron) box.extend(p);
         nearby.clear();
-        net.grid().collect(box, nearby);
+        net.tree().collect(box, nearby);
         for (const Index t : nearby)
             for (const Index v : net.triangle(t).vertices)
                 if (box.contains(net.point(v)) && !takes_part(v) && is_inside(tetrahedron, net.point(v)))

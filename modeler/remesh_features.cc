@@ -215,7 +215,7 @@ std::optional<Vec3> nearest(const Session& session, std::span<const std::uint32_
 Net make_net(const FacetComplex& complex, const RemeshGeometry& geometry) {
     Net net = net_of(complex, geometry);
     split_patches(net, geometry);
-    net.rebuild_grid();
+    net.pack_tree();
     for (Index v = 0; v < net.n_vertices(); ++v) {
         if (net.triangles_at(v).empty()) continue;
         net.set_size(v, wanted_size(net, geometry, v));

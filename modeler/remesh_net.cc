@@ -74,7 +74,7 @@ void Net::attach(Index t) {
         around_[v].push_back(t);
         touched_[v] = now_;
     }
-    grid_.insert(t, corners(t));
+    tree_.insert({t, corners(t)});
 }
 
 void Net::detach(Index t) {
@@ -82,7 +82,7 @@ void Net::detach(Index t) {
         std::erase(around_[v], t);
         touched_[v] = now_;
     }
-    grid_.erase(t, corners(t));
+    tree_.erase({t, corners(t)});
 }
 
 void Net::set_size(Index v, double size) {
@@ -100,23 +100,13 @@ void Net::apply(const Change& change) {
         unused_.push_back(change.removed[i]);
     }
     for (const Triangle& triangle : change.added) add_triangle(triangle);
-    if (triangles_.size() - unused_.size() > most_in_grid_) rebuild_grid();
 }
 
-void Net::rebuild_grid() {
-    std::vector<double> longest;
-    for (Index t = 0; t < n_triangles(); ++t) {
-        if (!is_alive(t)) continue;
-        const auto& [a, b, c] = triangles_[t].vertices;
-        longest.push_back(std::max({length(a, b), length(b, c), length(c, a)}));
-    }
-    if (longest.empty()) return;
-    const auto middle = longest.begin() + static_cast<std::ptrdiff_t>(longest.size() / 2);
-    std::ranges::nth_element(longest, middle);
-    grid_.reset(*middle, longest.size());
-    most_in_grid_ = 2 * longest.size();
+void Net::pack_tree() {
+    std::vector<TriangleTree::Entry> entries;
     for (Index t = 0; t < n_triangles(); ++t)
-        if (is_alive(t)) grid_.insert(t, corners(t));
+        if (is_alive(t)) entries.push_back({t, corners(t)});
+    tree_ = TriangleTree(entries);
 }
 
 Corners Net::corners(Index t) const {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "modeler/facet_complex.hh"
-#include "modeler/remesh_grid.hh"
+#include "modeler/remesh_tree.hh"
 
 namespace maille::modeler::remeshing {
 
@@ -55,9 +55,8 @@ class Net {
     void add_triangle(const Triangle& triangle);
     /// Replaces triangles and moves the vertex. Numbers of removed triangles are used again.
     void apply(const Change& change);
-    /// Builds the look-up of places anew, fit for the present lengths of edges. It is done again by itself
-    /// when there are twice as many triangles.
-    void rebuild_grid();
+    /// Packs the look-up of places, which many changes make slower.
+    void pack_tree();
 
     Index n_vertices() const { return static_cast<Index>(points_.size()); }
     Index n_triangles() const { return static_cast<Index>(triangles_.size()); }
@@ -78,7 +77,7 @@ class Net {
     const Patch& patch(Index t) const { return patch(triangles_[t]); }
     const Patch& patch(const Triangle& triangle) const { return patches_[triangle.patch]; }
     Corners corners(Index t) const;
-    const TriangleGrid& grid() const { return grid_; }
+    const TriangleTree& tree() const { return tree_; }
 
     std::span<const Index> triangles_at(Index v) const { return around_[v]; }
     std::vector<Index> triangles_at(Index a, Index b) const;
@@ -111,8 +110,7 @@ class Net {
     std::vector<Triangle> triangles_;
     std::vector<std::vector<Index>> around_;
     std::vector<Index> unused_;  // numbers of removed triangles
-    TriangleGrid grid_;
-    std::size_t most_in_grid_ = std::numeric_limits<std::size_t>::max();
+    TriangleTree tree_;
 };
 
 /// The vertex of the triangle that is neither a nor b.
