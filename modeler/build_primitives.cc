@@ -8,6 +8,7 @@
 #include "modeler/arrange_self_intersection.hh"
 #include "modeler/build_copies.hh"
 #include "modeler/build_size.hh"
+#include "modeler/build_worth.hh"
 #include "modeler/closed_surface.hh"
 #include "modeler/parallel.hh"
 #include "modeler/tessellate.hh"
@@ -71,8 +72,10 @@ PrimitiveMesher::PrimitiveMesher(const Model& model, const BuildOptions& options
       sizes_(sizes_of_primitives(model, options)),
       shared_(find_shared_surfaces(model.primitives, sizes_, options.chord_tolerance)),
       first_(first_surfaces(model)),
-      may_own_(model.primitives.size()) {
-    mark_owners(model.tree, may_own_);
+      is_meshed_(model.primitives.size()) {
+    mark_owners(model.tree, is_meshed_);
+    const std::vector<std::uint8_t> worth = worth_meshing(model, sizes_);
+    for (std::size_t i = 0; i < worth.size(); ++i) is_meshed_[i] &= worth[i];
 }
 
 Operand PrimitiveMesher::operand(std::size_t i, std::span<const FacePoint> points, bool with_cells,
@@ -100,8 +103,8 @@ Operand PrimitiveMesher::operand(std::size_t i, std::span<const FacePoint> point
 std::vector<Operand> PrimitiveMesher::mesh(BuildReport& report) const {
     const std::size_t n = model_.primitives.size();
     const std::vector<std::size_t> original = first_alike(model_.primitives, sizes_, shared_);
-    std::vector<std::uint8_t> with_cells = may_own_;
-    for (std::size_t i = 0; i < n; ++i) with_cells[original[i]] |= may_own_[i];
+    std::vector<std::uint8_t> with_cells = is_meshed_;
+    for (std::size_t i = 0; i < n; ++i) with_cells[original[i]] |= is_meshed_[i];
     std::vector<Operand> operands(n);
     std::vector<std::vector<std::string>> warnings_of(n);
     parallel_for(n, options_.threads, [&](std::size_t i) {
@@ -126,7 +129,7 @@ bool PrimitiveMesher::mesh_again(std::vector<Operand>& operands, std::span<const
     std::vector<std::uint8_t> is_fit(which.size());
     parallel_for(which.size(), options_.threads, [&](std::size_t k) {
         const std::size_t i = which[k];
-        operands[i] = operand(i, points[i], may_own_[i], warnings_of[k]);
+        operands[i] = operand(i, points[i], is_meshed_[i], warnings_of[k]);
         is_fit[k] = !crosses_itself(operands[i].surface);
     });
     for (auto& list : warnings_of) std::ranges::move(list, std::back_inserter(warnings));

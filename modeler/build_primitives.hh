@@ -38,7 +38,7 @@ class PrimitiveMesher {
     std::vector<double> sizes_;
     std::vector<std::shared_ptr<const SharedSurface>> shared_;
     std::vector<std::uint32_t> first_;
-    std::vector<std::uint8_t> may_own_;
+    std::vector<std::uint8_t> is_meshed_;
 };
 
 }  // namespace maille::modeler

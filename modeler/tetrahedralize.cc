@@ -101,12 +101,13 @@ ComplexMesh attempt(const FacetComplex& complex, std::span<const double> sizes, 
     const bool one_region = std::ranges::none_of(complex.facets, [](const Facet& f) {
         return std::min(f.front, f.back) != outside || std::max(f.front, f.back) != 0;
     });
-    if (rung.refine && one_region) {
-        request.switches = fmt::format("pq1.4/14{}o/140a{:.17g}", common, volume_of_size(sizes[0]));
-    } else if (rung.refine) {
+    if (rung.refine) {
+        // TetGen would fill and refine cavities too.
         for (const Facet& facet : complex.facets) request.sides.push_back({facet.front, facet.back});
         for (const double size : sizes) request.max_volumes.push_back(volume_of_size(size));
-        request.switches = fmt::format("pq1.4/12A{}o/140a", common);
+        request.switches = one_region
+                               ? fmt::format("pq1.4/14{}o/140a{:.17g}", common, volume_of_size(sizes[0]))
+                               : fmt::format("pq1.4/12A{}o/140a", common);
     }
     Answer answer = tetgen::run(request);
     tetgen::check_complete(answer, request);

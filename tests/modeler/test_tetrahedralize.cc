@@ -153,6 +153,17 @@ TEST_CASE("each region of a complex gets its own size, cavities stay empty") {
     CHECK(largest <= 3 * std::pow(0.25, 3) / (6 * std::sqrt(2)));
 }
 
+TEST_CASE("nothing is made in the cavity of a solid of one region") {
+    FacetComplex complex;
+    add_box(complex, {-2, -2, -2}, {2, 2, 2}, outside, 0);
+    add_box(complex, {-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}, 0, outside);
+    for (int i = 0; i < 4; ++i) complex = quartered(complex);
+    const ComplexMesh mesh = tetrahedralize(complex, std::array{0.15});
+    CHECK(volume_of(mesh, 0) == doctest::Approx(37).epsilon(1e-12));
+    CHECK(mesh.points.size() > complex.points.size());
+    for (const Vector3d& p : mesh.points) CHECK(p.cwiseAbs().maxCoeff() >= 1.5);
+}
+
 TEST_CASE("the neighbours that TetGen tells are those that the cells have") {
     FacetComplex complex;
     add_box(complex, {-2, -2, -2}, {2, 2, 2}, outside, 0);
