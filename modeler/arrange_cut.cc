@@ -11,6 +11,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "modeler/arrange_flat_traits.hh"
 #include "modeler/arrange_lines.hh"
 #include "modeler/arrange_scene.hh"
 #include "volmesh/union_find.hh"
@@ -23,12 +24,12 @@ struct Number {
     std::uint32_t value = none;
 };
 
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Number, Exact>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Number, FlatTraits>;
 using FaceBase =
-    CGAL::Triangulation_face_base_with_info_2<Number, Exact,
-                                              CGAL::Constrained_triangulation_face_base_2<Exact>>;
+    CGAL::Triangulation_face_base_with_info_2<Number, FlatTraits,
+                                              CGAL::Constrained_triangulation_face_base_2<FlatTraits>>;
 using Triangulation =
-    CGAL::Constrained_triangulation_2<Exact, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    CGAL::Constrained_triangulation_2<FlatTraits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                       CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Face = Triangulation::Face_handle;
 
@@ -51,7 +52,8 @@ class PlaneCutter {
           contacts_(contacts),
           facets_(facets),
           projection_(corner(facets[0], 0), corner(facets[0], 1), corner(facets[0], 2)),
-          lines_(positions, projection_, supporting_plane(), registry) {}
+          lines_(positions, projection_, supporting_plane(), registry),
+          triangulation_(FlatTraits(known_)) {}
 
     void add_edges(std::span<const std::uint64_t> dissolved) {
         std::vector<int> sides;
@@ -96,6 +98,8 @@ class PlaneCutter {
 
     void triangulate() {
         lines_.cut();
+        for (std::uint32_t line = 0; line < lines_.size(); ++line)
+            for (const auto p : lines_.points(line)) known_.put(number(p), line);
         for (const auto p : corners_) vertex(p);
         for (std::uint32_t line = 0; line < lines_.size(); ++line) {
             const auto points = lines_.points(line);
@@ -166,21 +170,30 @@ class PlaneCutter {
         return result;
     }
 
-    Triangulation::Vertex_handle vertex(std::uint32_t point) {
-        const auto [at, is_new] = vertices_.try_emplace(point);
+    /// The point's number in the triangulation.
+    std::uint32_t number(std::uint32_t point) {
+        const auto [at, is_new] = numbers_.try_emplace(point, static_cast<std::uint32_t>(vertices_.size()));
         if (is_new) {
-            const Face hint = latest_ == Triangulation::Vertex_handle() ? Face() : latest_->face();
-            at->second = triangulation_.insert(lines_.flat(point), hint);
-            if (at->second->info().value != none)
-                throw std::logic_error("two points of the arrangement are at one place");
-            at->second->info().value = point;
+            vertices_.emplace_back();
+            known_.add_point();
         }
-        latest_ = at->second;
         return at->second;
     }
 
-    /// Spares the general way, which computes exactly whether points of one line lie on it, where there is
-    /// that edge already.
+    Triangulation::Vertex_handle vertex(std::uint32_t point) {
+        const std::uint32_t n = number(point);
+        if (vertices_[n] == Triangulation::Vertex_handle()) {
+            const Face hint = latest_ == Triangulation::Vertex_handle() ? Face() : latest_->face();
+            vertices_[n] = triangulation_.insert(FlatPoint(lines_.flat(point), n), hint);
+            if (vertices_[n]->info().value != none)
+                throw std::logic_error("two points of the arrangement are at one place");
+            vertices_[n]->info().value = point;
+        }
+        latest_ = vertices_[n];
+        return latest_;
+    }
+
+    /// Spares the general way where there is that edge already.
     void constrain(Triangulation::Vertex_handle a, Triangulation::Vertex_handle b) {
         Face face;
         int k = 0;
@@ -259,11 +272,13 @@ class PlaneCutter {
     std::vector<std::uint32_t> corners_;          ///< of facets, and points where others touch them
     std::vector<std::vector<Rim>> rims_of_line_;  ///< of the first lines, those that are edges
     std::unordered_map<std::uint64_t, std::vector<Rim>> rims_;
+    KnownLines known_;
     Triangulation triangulation_;
     Triangulation::Vertex_handle latest_{};
     std::vector<std::vector<std::pair<Face, int>>>
         borders_;  ///< of the parts: constrained sides of triangles
-    std::unordered_map<std::uint32_t, Triangulation::Vertex_handle> vertices_;
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers_;  ///< of points of the registry, here
+    std::vector<Triangulation::Vertex_handle> vertices_;
 };
 
 }  // namespace

@@ -68,6 +68,8 @@ RemeshReport remesh(FacetComplex& complex, const RemeshGeometry& geometry, const
         before = changes;
     }
 
+    if (clear_ways(session) > 0) work(session);
+
     session.report.short_of_surface = count_short_of_surface(session);
     session.report.smallest_angle_after = smallest_angle(session.net);
     FacetComplex result = make_complex(session.net);

@@ -47,6 +47,7 @@ struct RemeshReport {
     std::size_t snaps = 0;             ///< vertices drawn onto a curve that ran too close by them
     std::size_t smoothings = 0;        ///< moves along the surface
     std::size_t projections = 0;       ///< moves onto the surface
+    std::size_t clearings = 0;         ///< the same, with neighbours that were in the way, or without
     std::size_t short_of_surface = 0;  ///< vertices that could not be moved onto all their surfaces
     double smallest_angle_before = 0;
     double smallest_angle_after = 0;

@@ -2,6 +2,7 @@
 #include <queue>
 #include <utility>
 
+#include "modeler/remesh_changes.hh"
 #include "modeler/remesh_check.hh"
 #include "modeler/remesh_passes.hh"
 
@@ -11,10 +12,6 @@ namespace {
 
 constexpr double too_short = 0.6;  // of the wanted length
 constexpr double too_long = 1.4;
-// How far, in wanted lengths, a curve that nothing but its vertices define may be straightened; less among
-// planes, where areas depend on it.
-constexpr double straightening = 0.02;
-constexpr double straightening_planar = 1e-9;
 
 struct Edge {
     double length;
@@ -22,54 +19,6 @@ struct Edge {
     Index b;
     auto operator<=>(const Edge&) const = default;
 };
-
-/// Whether a tangent curve stays where it is without its vertex u.
-bool keeps_course(const Net& net, Index u, Index w) {
-    const bool planar =
-        std::ranges::all_of(net.triangles_at(u), [&](Index t) { return net.patch(t).planar; });
-    const double tolerance = (planar ? straightening_planar : straightening) * net.size(u);
-    return std::ranges::all_of(net.feature_neighbours(u), [&](Index end) {
-        return end == w || distance_to_segment(net.point(u), net.point(end), net.point(w)) <= tolerance;
-    });
-}
-
-/// Whether the complex keeps its topology when u is drawn onto w (the link condition, and that of the
-/// curves).
-bool keeps_topology(const Net& net, Index u, Index w) {
-    switch (net.kind(u)) {
-        case VertexKind::face:
-            break;
-        case VertexKind::curve:
-            if (net.kind(w) == VertexKind::face || !net.is_feature(u, w)) return false;
-            break;
-        case VertexKind::tangent:
-            if (net.kind(w) == VertexKind::face || !net.is_feature(u, w) || !keeps_course(net, u, w))
-                return false;
-            break;
-        case VertexKind::corner:
-            return false;
-    }
-    std::vector<Index> apexes;
-    for (const Index t : net.triangles_at(u, w)) apexes.push_back(apex(net.triangle(t), u, w));
-    std::ranges::sort(apexes);
-    std::vector<Index> common;
-    std::ranges::set_intersection(net.neighbours(u), net.neighbours(w), std::back_inserter(common));
-    if (common != apexes) return false;
-    return std::ranges::none_of(apexes,
-                                [&](Index x) { return net.is_feature(u, x) && net.is_feature(w, x); });
-}
-
-Change collapse(const Net& net, Index u, Index w) {
-    Change change;
-    for (const Index t : net.triangles_at(u)) {
-        change.removed.push_back(t);
-        if (contains(net.triangle(t), w)) continue;
-        change.added.push_back(replaced(net.triangle(t), u, w));
-        const auto [a, b, c] = net.corners(t);
-        change.swept.push_back({a, b, c, net.point(w)});
-    }
-    return change;
-}
 
 /// Whether no edge of w becomes longer than is wanted, or than one of u was.
 bool keeps_lengths(const Net& net, Index u, Index w) {

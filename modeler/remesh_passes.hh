@@ -22,6 +22,9 @@ std::size_t snap_to_curves(Session& session);
 /// Moves vertices onto their surfaces, corners too.
 std::size_t project_vertices(Session& session);
 
+/// Brings vertices onto their surfaces that others are in the way of: those that may go are drawn onto them.
+std::size_t clear_ways(Session& session);
+
 /// Moves vertices of bad triangles along their surfaces where the smallest angle grows by it.
 std::size_t smooth_vertices(Session& session);
 

@@ -1,0 +1,119 @@
+#include <algorithm>
+
+#include "modeler/remesh_changes.hh"
+#include "modeler/remesh_check.hh"
+#include "modeler/remesh_features.hh"
+#include "modeler/remesh_passes.hh"
+
+namespace maille::modeler::remeshing {
+
+namespace {
+
+constexpr double on_surface = 1e-13;      // of the size
+constexpr double projection_reach = 1.0;  // of the size: further away no surface is meant
+constexpr double least_after_projection = 1e-3;
+
+bool is_frozen(const Net& net, Index v) {
+    return std::ranges::any_of(net.triangles_at(v), [&](Index t) { return net.patch(t).frozen; });
+}
+
+/// Where v belongs if it starts from p, or nothing where its surfaces have no common point near that.
+std::optional<Vec3> place_on_surfaces(const Session& session, Index v, const Vec3& p) {
+    const Net& net = session.net;
+    return nearest(session, net.surfaces(net.triangles_at(v)), net.kind(v), p,
+                   projection_reach * net.size(v));
+}
+
+/// Moves v onto its surfaces where it isn't on them yet: to the nearest place, or to that nearest to the
+/// middle of its neighbours where facets are in the way, or that place belongs to another branch of the
+/// curve.
+bool try_projection(Session& session, Index v) {
+    const Net& net = session.net;
+    const auto try_move = [&](const Vec3& target) {
+        const Change change = move(net, v, target);
+        const double before = worst_quality(net, change.removed);
+        return try_change(session, change, std::min(before, least_after_projection));
+    };
+    const auto target = place_on_surfaces(session, v, net.point(v));
+    if (!target || (*target - net.point(v)).norm() <= on_surface * net.size(v)) return false;
+    if (try_move(*target)) return true;
+    if (net.kind(v) == VertexKind::corner || net.kind(v) == VertexKind::tangent) return false;
+    const auto other = place_on_surfaces(session, v, middle(net, neighbours_alike(net, v)));
+    return other && try_move(*other);
+}
+
+/// Where v has still to go, if that is known.
+std::optional<Vec3> place_to_reach(const Session& session, Index v) {
+    const Net& net = session.net;
+    if (net.triangles_at(v).empty() || is_frozen(net, v)) return std::nullopt;
+    auto target = place_on_surfaces(session, v, net.point(v));
+    // Ten times the tolerance of the moves: projecting again rounds again.
+    if (target && (*target - net.point(v)).norm() <= 10 * on_surface * net.size(v)) return std::nullopt;
+    return target;
+}
+
+/// Draws a neighbour that is in the way onto v, which goes where it has to; or leaves v out, if nothing ends
+/// there; or else draws what is nearer to that place than v onto it, to make room.
+bool try_clearing(Session& session, Index v) {
+    const Net& net = session.net;
+    const auto target = place_to_reach(session, v);
+    if (!target) return false;
+    std::vector<Index> others = net.neighbours(v);
+    std::ranges::stable_sort(others, {}, [&](Index u) { return (net.point(u) - *target).norm(); });
+    const auto try_it = [&](const Change& change) {
+        return try_change(session, change,
+                          std::min(worst_quality(net, change.removed), least_after_projection));
+    };
+    for (const Index u : others)
+        if (keeps_topology(net, u, v) && try_it(collapse(net, u, v, *target))) return true;
+    for (const Index w : others)
+        if (keeps_topology(net, v, w) && try_it(collapse(net, v, w))) return true;
+    const double way = (net.point(v) - *target).norm();
+    for (const Index u : others)
+        if ((net.point(u) - *target).norm() < way && keeps_topology(net, u, v) &&
+            try_it(collapse(net, u, v)))
+            return true;
+    return false;
+}
+
+}  // namespace
+
+std::size_t project_vertices(Session& session) {
+    const Net& net = session.net;
+    std::size_t done = 0;
+    for (Index v = 0; v < net.n_vertices(); ++v) {
+        if (net.triangles_at(v).empty() || is_frozen(net, v)) continue;
+        if (try_projection(session, v)) ++done;
+    }
+    session.report.projections += done;
+    return done;
+}
+
+std::size_t clear_ways(Session& session) {
+    constexpr int most_sweeps = 5;
+    const Net& net = session.net;
+    std::size_t done = 0;
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+        const std::size_t before = done;
+        for (Index v = 0; v < net.n_vertices(); ++v)
+            if (place_to_reach(session, v) && (try_projection(session, v) || try_clearing(session, v)))
+                ++done;
+        if (done == before) break;
+    }
+    session.report.clearings += done;
+    return done;
+}
+
+std::size_t count_short_of_surface(const Session& session) {
+    const Net& net = session.net;
+    std::size_t count = 0;
+    for (Index v = 0; v < net.n_vertices(); ++v) {
+        if (net.triangles_at(v).empty() || is_frozen(net, v)) continue;
+        const auto target = place_on_surfaces(session, v, net.point(v));
+        // Ten times the tolerance of the moves: projecting again rounds again.
+        if (!target || (*target - net.point(v)).norm() > 10 * on_surface * net.size(v)) ++count;
+    }
+    return count;
+}
+
+}  // namespace maille::modeler::remeshing
