@@ -73,6 +73,12 @@ class ClusterFinder {
         return result;
     }
 
+    /// For each facet the first one of its plane that it hangs together with.
+    std::vector<std::uint32_t> plane_of_facet() {
+        std::vector<std::uint32_t> planes(touched_.size());
+        for (std::uint32_t f = 0; f < planes.size(); ++f) planes[f] = groups_.find(f);
+        return planes;
+    }
     bool is_touched(std::uint32_t facet) const { return touched_[facet]; }
     /// Edges, rising, across which a facet of a cluster just goes on.
     const std::vector<std::uint64_t>& dissolved() const { return dissolved_; }
@@ -151,10 +157,12 @@ Subdivision subdivide(const FacetComplex& complex, const ExactPositions& positio
         add_covers(covers, complex, f, 1);
         add_sheet(result, none, covers, std::span(&complex.facets[f].vertices, 1));
     }
+    PlaneCrossings crossings(finder.plane_of_facet());
     for (auto& facets : finder.clusters()) {
         const auto number = static_cast<std::uint32_t>(result.clusters.size());
         PlaneCut cut = guarded(complex, facets, [&] {
-            return cut_plane(complex, positions, contacts, facets, finder.dissolved(), registry);
+            return cut_plane(complex, positions, contacts, facets, finder.dissolved(), crossings,
+                             registry);
         });
         for (const PlaneCut::Part& part : cut.parts) {
             covers.clear();

@@ -46,13 +46,14 @@ using Covers = std::vector<std::pair<std::uint32_t, int>>;
 class PlaneCutter {
   public:
     PlaneCutter(const FacetComplex& complex, const ExactPositions& positions, const Contacts& contacts,
-                std::span<const std::uint32_t> facets, PointRegistry& registry)
+                std::span<const std::uint32_t> facets, PlaneCrossings& crossings, PointRegistry& registry)
         : complex_(complex),
           positions_(positions),
           contacts_(contacts),
           facets_(facets),
+          crossings_(crossings),
           projection_(corner(facets[0], 0), corner(facets[0], 1), corner(facets[0], 2)),
-          lines_(positions, projection_, supporting_plane(), registry),
+          lines_(positions, projection_, supporting_plane(), crossings.plane_of(facets[0]), crossings, registry),
           triangulation_(FlatTraits(known_)) {}
 
     void add_edges(std::span<const std::uint64_t> dissolved) {
@@ -92,7 +93,7 @@ class PlaneCutter {
                 if (contact.ends[0] == contact.ends[1])
                     corners_.push_back(contact.ends[0]);
                 else
-                    lines_.add(contact.ends[0], contact.ends[1]);
+                    lines_.add(contact.ends[0], contact.ends[1], crossings_.plane_of(contact.other));
             }
     }
 
@@ -267,6 +268,7 @@ class PlaneCutter {
     const ExactPositions& positions_;
     const Contacts& contacts_;
     std::span<const std::uint32_t> facets_;
+    const PlaneCrossings& crossings_;
     Projection projection_;
     FlatLines lines_;
     std::vector<std::uint32_t> corners_;          ///< of facets, and points where others touch them
@@ -285,8 +287,8 @@ class PlaneCutter {
 
 PlaneCut cut_plane(const FacetComplex& complex, const ExactPositions& positions, const Contacts& contacts,
                    std::span<const std::uint32_t> facets, std::span<const std::uint64_t> dissolved,
-                   PointRegistry& registry) {
-    PlaneCutter cutter(complex, positions, contacts, facets, registry);
+                   PlaneCrossings& crossings, PointRegistry& registry) {
+    PlaneCutter cutter(complex, positions, contacts, facets, crossings, registry);
     cutter.add_edges(dissolved);
     cutter.add_contacts();
     cutter.triangulate();

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "modeler/arrange_crossings.hh"
 #include "modeler/arrange_intersect.hh"
 #include "modeler/arrange_projection.hh"
 
@@ -28,6 +29,6 @@ struct PlaneCut {
 /// along their contacts. The plane's normal is that of the first facet.
 PlaneCut cut_plane(const FacetComplex& complex, const ExactPositions& positions, const Contacts& contacts,
                    std::span<const std::uint32_t> facets, std::span<const std::uint64_t> dissolved,
-                   PointRegistry& registry);
+                   PlaneCrossings& crossings, PointRegistry& registry);
 
 }  // namespace maille::modeler::detail

@@ -45,8 +45,8 @@ class Intersector {
         collect(j, sj, i);
         if (common_.empty()) return;
         const auto edge_of_i = edge_in_plane(i, si), edge_of_j = edge_in_plane(j, sj);
-        add({{common_.front(), common_.back()}, edge_of_i != 0 ? edge_of_i : edge_of_j}, i);
-        add({{common_.front(), common_.back()}, edge_of_j != 0 ? edge_of_j : edge_of_i}, j);
+        add({{common_.front(), common_.back()}, edge_of_i != 0 ? edge_of_i : edge_of_j, j}, i);
+        add({{common_.front(), common_.back()}, edge_of_j != 0 ? edge_of_j : edge_of_i, i}, j);
     }
 
     Contacts take() {
@@ -199,7 +199,7 @@ class Intersector {
     void place_corners(std::uint32_t degenerate, std::uint32_t facet) {
         const auto& [a, b, c] = corners(facet);
         for (const auto v : corners(degenerate))
-            if (orientation(a, b, c, v) == CGAL::ZERO && holds(facet, v)) add({{v, v}, 0}, facet);
+            if (orientation(a, b, c, v) == CGAL::ZERO && holds(facet, v)) add({{v, v}, 0, degenerate}, facet);
     }
 
     void add(const Contacts::Segment& segment, std::uint32_t facet) {

@@ -18,6 +18,7 @@ struct Contacts {
     struct Segment {
         std::array<std::uint32_t, 2> ends;  ///< numbers in the registry; twice the same for a single point
         std::uint64_t carrier;              ///< the edge of a facet that it is known to lie on, or 0
+        std::uint32_t other;                ///< the facet that is met there
     };
     using PointOnEdge = std::pair<std::uint64_t, std::uint32_t>;
 

@@ -41,9 +41,9 @@ void FlatLines::Line::insert(std::uint32_t point) {
     if (at == points.end() || *at != point) points.insert(at, point);
 }
 
-std::uint32_t FlatLines::add(std::uint32_t from, std::uint32_t to) {
+std::uint32_t FlatLines::add(std::uint32_t from, std::uint32_t to, std::uint32_t across) {
     const auto [at, is_new] = numbers_.try_emplace(edge_key(from, to), size());
-    if (is_new) lines_.push_back({std::min(from, to), std::max(from, to), {from, to}});
+    if (is_new) lines_.push_back({std::min(from, to), std::max(from, to), {from, to}, across});
     return at->second;
 }
 
@@ -126,13 +126,25 @@ void FlatLines::meet(Line& a, Line& b) {
         }
     if (touches) return;
 
+    const std::uint32_t point = crossing(a, b);
+    a.insert(point);
+    b.insert(point);
+}
+
+/// The number of the one point that both are known to have in common.
+std::uint32_t FlatLines::crossing(const Line& a, const Line& b) {
+    if (a.across == none || b.across == none) return new_crossing(a, b);
+    std::uint32_t& point = crossings_.point_of({number_, a.across, b.across});
+    if (point == none) point = new_crossing(a, b);
+    return point;
+}
+
+std::uint32_t FlatLines::new_crossing(const Line& a, const Line& b) {
     const auto crossing =
         CGAL::intersection(Exact::Line_2(flat(a.from), flat(a.to)), Exact::Line_2(flat(b.from), flat(b.to)));
     const auto* place = crossing ? boost::get<Exact::Point_2>(&*crossing) : nullptr;
     if (place == nullptr) throw std::logic_error("lines that cross have no point in common");
-    const std::uint32_t point = registry_.add(projection_.lift(*place, plane_));
-    a.insert(point);
-    b.insert(point);
+    return registry_.add(projection_.lift(*place, plane_));
 }
 
 void FlatLines::order(Line& line) {

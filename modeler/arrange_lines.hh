@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "modeler/arrange_crossings.hh"
 #include "modeler/arrange_kernel.hh"
 #include "modeler/arrange_planes.hh"
 #include "modeler/arrange_projection.hh"
@@ -17,13 +18,19 @@ namespace maille::modeler::detail {
 /// mostly known from how they came about; being told that spares expensive proofs.
 class FlatLines {
   public:
-    /// `plane` holds all points that will be added.
+    /// `plane` holds all points that will be added; `number` is what the crossings know it by.
     FlatLines(const ExactPositions& positions, const Projection& projection, ExactPlane plane,
-              PointRegistry& registry)
-        : positions_(positions), projection_(projection), plane_(std::move(plane)), registry_(registry) {}
+              std::uint32_t number, PlaneCrossings& crossings, PointRegistry& registry)
+        : positions_(positions),
+          projection_(projection),
+          plane_(std::move(plane)),
+          number_(number),
+          crossings_(crossings),
+          registry_(registry) {}
 
     /// The number of the segment between two different points of the registry, whichever way it runs.
-    std::uint32_t add(std::uint32_t from, std::uint32_t to);
+    /// `across`: another plane that holds it, if one is known.
+    std::uint32_t add(std::uint32_t from, std::uint32_t to, std::uint32_t across = none);
     /// The number of the segment with these ends (see edge_key), or none.
     std::uint32_t find(std::uint64_t ends) const;
     /// Tells that a point lies on the segment.
@@ -43,6 +50,7 @@ class FlatLines {
     struct Line {
         std::uint32_t from, to;
         std::vector<std::uint32_t> points;
+        std::uint32_t across;
         double dx = 0, dy = 0;  ///< about where it runs to; zero where doubles cannot tell
         bool has(std::uint32_t point) const;
         void insert(std::uint32_t point);
@@ -51,11 +59,15 @@ class FlatLines {
     void prepare(Line& line);
     void meet(Line& a, Line& b);
     void order(Line& line);
+    std::uint32_t crossing(const Line& a, const Line& b);
+    std::uint32_t new_crossing(const Line& a, const Line& b);
     CGAL::Sign turn(const Line& line, std::uint32_t point);
 
     const ExactPositions& positions_;
     const Projection& projection_;
     ExactPlane plane_;
+    std::uint32_t number_;
+    PlaneCrossings& crossings_;
     PointRegistry& registry_;
     std::vector<Line> lines_;
     std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  ///< of the lines, by their ends

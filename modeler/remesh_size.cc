@@ -55,6 +55,12 @@ std::optional<Region> region_towards(const Net& net, Index t, const Vec3& direct
     return along > 0 ? net.patch(t).front : net.patch(t).back;
 }
 
+/// A triangle, with its corners at hand.
+struct Facing {
+    Index number;
+    Corners corners;
+};
+
 /// Whether v and the triangle face each other across a region that is to be meshed.
 bool face_each_other(const Net& net, Index v, Index t, const Vec3& from_v_to_t) {
     const auto region = region_towards(net, t, -from_v_to_t);
@@ -63,9 +69,8 @@ bool face_each_other(const Net& net, Index v, Index t, const Vec3& from_v_to_t) 
            });
 }
 
-Eigen::AlignedBox3d box_of(const Net& net, Index t) {
-    const auto [a, b, c] = net.corners(t);
-    return Eigen::AlignedBox3d(a).extend(b).extend(c);
+Eigen::AlignedBox3d box_of(const Corners& corners) {
+    return Eigen::AlignedBox3d(corners[0]).extend(corners[1]).extend(corners[2]);
 }
 
 /// Tells cheaply of most triangles near a vertex that the sheets there don't face them.
@@ -83,10 +88,10 @@ class MayFace {
 
     /// False where `face_each_other` says no or the triangle is further than `reach`, or meets the sheets in
     /// a curve beside the vertex: those make no gap.
-    bool operator()(Index t, double reach) const {
-        const double distance = std::sqrt(box_of(net_, t).squaredExteriorDistance(at_));
+    bool operator()(const Facing& triangle, double reach) const {
+        const Corners& corners = triangle.corners;
+        const double distance = std::sqrt(box_of(corners).squaredExteriorDistance(at_));
         if (distance >= reach) return false;
-        const Corners corners = net_.corners(t);
         return std::ranges::all_of(normals_,
                                    [&](const Vec3& normal) {
                                        double off_plane = 0;
@@ -94,7 +99,7 @@ class MayFace {
                                            off_plane = std::max(off_plane, std::abs(normal.dot(p - at_)));
                                        return off_plane >= (least_facing - same_normal) * distance;
                                    }) &&
-               std::ranges::none_of(net_.triangle(t).vertices,
+               std::ranges::none_of(net_.triangle(triangle.number).vertices,
                                     [&](Index w) { return std::ranges::binary_search(around_, w); });
     }
 
@@ -115,7 +120,7 @@ class GapFinder {
         : net_(net),
           curves_(net.n_vertices()),
           curve_sides_(net.n_triangles()),
-          boxes_(boxes_of(net, alive_)),
+          boxes_(boxes_of(net, triangles_)),
           ways_(net.n_vertices(), unreached),
           questions_at_(net.n_vertices(), none) {
         for (const auto& [a, b] : net.edges()) {
@@ -130,7 +135,7 @@ class GapFinder {
     /// Whether any triangle changed after that time that comes nearer to v than `reach`.
     bool has_changed(Index v, double reach, std::uint64_t since) const {
         return !boxes_.visit_box(cube(v, reach), [&](std::uint32_t i) {
-            return std::ranges::none_of(net_.triangle(alive_[i]).vertices,
+            return std::ranges::none_of(net_.triangle(triangles_[i].number).vertices,
                                         [&](Index w) { return net_.touched(w) > since; });
         });
     }
@@ -161,12 +166,12 @@ class GapFinder {
     static constexpr std::size_t most_looked_at = 300;
     static constexpr double unreached = std::numeric_limits<double>::infinity();
 
-    static std::vector<Eigen::AlignedBox3d> boxes_of(const Net& net, std::vector<Index>& alive) {
+    static std::vector<Eigen::AlignedBox3d> boxes_of(const Net& net, std::vector<Facing>& triangles) {
         std::vector<Eigen::AlignedBox3d> boxes;
         for (Index t = 0; t < net.n_triangles(); ++t) {
             if (!net.is_alive(t)) continue;
-            boxes.push_back(box_of(net, t));
-            alive.push_back(t);
+            triangles.push_back({t, net.corners(t)});
+            boxes.push_back(box_of(triangles.back().corners));
         }
         return boxes;
     }
@@ -186,19 +191,21 @@ class GapFinder {
     void collect(Index v, double reach) {
         nearby_.clear();
         boxes_.visit_box(cube(v, reach), [&](std::uint32_t i) {
-            nearby_.push_back(alive_[i]);
+            nearby_.push_back(i);
             return true;
         });
     }
 
     /// The width of the gap between v and other sheets, if it is less than `reach` and `gap`; else `gap`.
     double gap_to_sheets(Index v, const MayFace& may_face, double reach, double gap) const {
-        for (const Index t : nearby_) {
+        for (const std::uint32_t i : nearby_) {
             const double most = std::min(gap, reach);
-            if (!may_face(t, most)) continue;
-            const Vec3 to_sheet = nearest_on_triangle(net_.corners(t), net_.point(v)) - net_.point(v);
+            const Facing& triangle = triangles_[i];
+            if (!may_face(triangle, most)) continue;
+            const Vec3 to_sheet = nearest_on_triangle(triangle.corners, net_.point(v)) - net_.point(v);
             const double distance = to_sheet.norm();
-            if (distance > 0 && distance < most && face_each_other(net_, v, t, to_sheet)) gap = distance;
+            if (distance > 0 && distance < most && face_each_other(net_, v, triangle.number, to_sheet))
+                gap = distance;
         }
         return gap;
     }
@@ -207,8 +214,9 @@ class GapFinder {
     /// less than `reach` and `gap`; else `gap`.
     double gap_to_curves(Index v, double reach, double gap) {
         edges_.clear();
-        for (const Index t : nearby_)
+        for (const std::uint32_t n : nearby_)
             for (std::size_t i = 0; i < 3; ++i) {
+                const Index t = triangles_[n].number;
                 if (!curve_sides_[t][i]) continue;
                 const Index a = net_.triangle(t).vertices[i];
                 const Index b = net_.triangle(t).vertices[(i + 1) % 3];
@@ -275,9 +283,9 @@ class GapFinder {
     const Net& net_;
     std::vector<std::vector<Index>> curves_;        // the other ends of the feature edges at each vertex
     std::vector<std::array<bool, 3>> curve_sides_;  // of each triangle: feature edges, each of one triangle
-    std::vector<Index> alive_;                      // the triangles in the tree
+    std::vector<Facing> triangles_;                 // in the tree
     modeler::detail::BoxTree boxes_;
-    std::vector<Index> nearby_;
+    std::vector<std::uint32_t> nearby_;  // by their places in the tree
     std::vector<NearEdge> edges_;
     std::vector<double> ways_;
     std::vector<Index> reached_;
