@@ -161,8 +161,7 @@ Subdivision subdivide(const FacetComplex& complex, const ExactPositions& positio
     for (auto& facets : finder.clusters()) {
         const auto number = static_cast<std::uint32_t>(result.clusters.size());
         PlaneCut cut = guarded(complex, facets, [&] {
-            return cut_plane(complex, positions, contacts, facets, finder.dissolved(), crossings,
-                             registry);
+            return cut_plane(complex, positions, contacts, facets, finder.dissolved(), crossings, registry);
         });
         for (const PlaneCut::Part& part : cut.parts) {
             covers.clear();

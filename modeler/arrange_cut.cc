@@ -53,7 +53,8 @@ class PlaneCutter {
           facets_(facets),
           crossings_(crossings),
           projection_(corner(facets[0], 0), corner(facets[0], 1), corner(facets[0], 2)),
-          lines_(positions, projection_, supporting_plane(), crossings.plane_of(facets[0]), crossings, registry),
+          lines_(positions, projection_, supporting_plane(), crossings.plane_of(facets[0]), crossings,
+                 registry),
           triangulation_(FlatTraits(known_)) {}
 
     void add_edges(std::span<const std::uint64_t> dissolved) {

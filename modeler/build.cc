@@ -138,7 +138,7 @@ std::vector<std::size_t> append(std::vector<std::vector<FacePoint>>& points,
 /// first: large models have none. `with_cells`: the operands that had a mesh.
 void try_again(Attempt& best, const Model& model, const BuildOptions& options, const PrimitiveMesher& mesher,
                std::vector<Operand>& operands, std::span<const std::size_t> with_cells) {
-    constexpr int most_times = 4, most_futile = 2;
+    constexpr int most_times = 6, most_futile = 2;
     constexpr std::size_t most_faces = 100'000;
     if (best.merged.faces.size() > most_faces) return;
     std::vector<std::vector<FacePoint>> points(operands.size());

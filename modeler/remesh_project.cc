@@ -70,8 +70,7 @@ bool try_clearing(Session& session, Index v) {
         if (keeps_topology(net, v, w) && try_it(collapse(net, v, w))) return true;
     const double way = (net.point(v) - *target).norm();
     for (const Index u : others)
-        if ((net.point(u) - *target).norm() < way && keeps_topology(net, u, v) &&
-            try_it(collapse(net, u, v)))
+        if ((net.point(u) - *target).norm() < way && keeps_topology(net, u, v) && try_it(collapse(net, u, v)))
             return true;
     return false;
 }
@@ -90,7 +89,7 @@ std::size_t project_vertices(Session& session) {
 }
 
 std::size_t clear_ways(Session& session) {
-    constexpr int most_sweeps = 5;
+    constexpr int most_sweeps = 20;
     const Net& net = session.net;
     std::size_t done = 0;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {

@@ -6,11 +6,14 @@
 
 #include "modeler/arrange_self_intersection.hh"
 #include "modeler/remesh.hh"
+#include "modeler/remesh_features.hh"
+#include "modeler/remesh_passes.hh"
 #include "remesh_samples.hh"
 
 using namespace remesh_samples;
 using maille::modeler::remesh;
 using maille::modeler::RemeshReport;
+namespace remeshing = maille::modeler::remeshing;
 
 namespace {
 
@@ -143,6 +146,36 @@ TEST_CASE("equal cylinders crossing: four curves meet at either pole") {
     for (const double pole : {-1.0, 1.0})
         CHECK(std::ranges::any_of(sample.complex.points,
                                   [&](const Vec3& p) { return (p - Vec3(0, 0, pole)).norm() < 1e-12; }));
+}
+
+TEST_CASE("vertices give way to those that have to reach a surface behind them") {
+    // A box with a ring of vertices around it, nearer to its end than the plane which that is to lie in.
+    const double ring = 0.1, deep = 0.15;
+    Builder b;
+    for (const auto& [x, y] : {std::pair(0.0, ring), std::pair(ring, 1.0)}) {
+        b.quad({x, 0, 0}, {x, 1, 0}, {y, 1, 0}, {y, 0, 0}, 0, outside, 0);
+        b.quad({x, 0, 1}, {y, 0, 1}, {y, 1, 1}, {x, 1, 1}, 1, outside, 0);
+        b.quad({x, 0, 0}, {y, 0, 0}, {y, 0, 1}, {x, 0, 1}, 2, outside, 0);
+        b.quad({x, 1, 0}, {x, 1, 1}, {y, 1, 1}, {y, 1, 0}, 3, outside, 0);
+    }
+    b.quad({0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}, 4, outside, 0);
+    b.quad({1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}, 5, outside, 0);
+    Sample sample{b.complex,
+                  {plane({0, 0, 0}, -Vec3::UnitZ()), plane({0, 0, 1}, Vec3::UnitZ()),
+                   plane({0, 0, 0}, -Vec3::UnitY()), plane({0, 1, 0}, Vec3::UnitY()),
+                   plane({deep, 0, 0}, -Vec3::UnitX()), plane({1, 0, 0}, Vec3::UnitX())}};
+    const RemeshGeometry shape = geometry(sample.surfaces, 0.5);
+    const maille::modeler::RemeshOptions options;
+    remeshing::Session session{remeshing::make_net(sample.complex, shape), shape, options};
+    remeshing::project_vertices(session);
+    CHECK(remeshing::count_short_of_surface(session) == 4);
+    remeshing::clear_ways(session);
+    CHECK(remeshing::count_short_of_surface(session) == 0);
+    sample.complex = remeshing::make_complex(session.net);
+    CHECK(largest_distance(sample) < 1e-12);
+    CHECK(is_closed(sample.complex, 0));
+    CHECK_FALSE(crosses_itself(sample));
+    CHECK(std::abs(volume(sample.complex, 0) - (1 - deep)) < 1e-12);
 }
 
 TEST_CASE("frozen facets stay bit by bit") {
