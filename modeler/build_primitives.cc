@@ -32,6 +32,20 @@ std::vector<double> sizes_of_primitives(const Model& model, const BuildOptions& 
     return sizes;
 }
 
+/// By primitive: the edge length away from the model where the primitive is far larger than that, as are
+/// cylinders that make edges of a plate round, and else its size. Cells of such primitives would be of no
+/// use.
+std::vector<double> sizes_beyond(const Model& model, const std::vector<double>& sizes) {
+    constexpr double far_larger = 3, parts = 60;
+    const Eigen::AlignedBox3d box = bounding_box(model);
+    std::vector<double> result = sizes;
+    for (std::size_t i = 0; i < sizes.size() && !box.isEmpty(); ++i) {
+        const double extent = model.primitives[i].shape->bounding_box().diagonal().norm();
+        if (extent > far_larger * box.diagonal().norm()) result[i] = std::max(sizes[i], extent / parts);
+    }
+    return result;
+}
+
 /// The number of each primitive's first surface.
 std::vector<std::uint32_t> first_surfaces(const Model& model) {
     std::vector<std::uint32_t> first(model.primitives.size());
@@ -70,18 +84,22 @@ PrimitiveMesher::PrimitiveMesher(const Model& model, const BuildOptions& options
     : model_(model),
       options_(options),
       sizes_(sizes_of_primitives(model, options)),
-      shared_(find_shared_surfaces(model.primitives, sizes_, options.chord_tolerance)),
+      sizes_beyond_(sizes_beyond(model, sizes_)),
+      shared_(find_shared_surfaces(model.primitives, sizes_beyond_, options.chord_tolerance)),
       first_(first_surfaces(model)),
       is_meshed_(model.primitives.size()) {
     mark_owners(model.tree, is_meshed_);
     const std::vector<std::uint8_t> worth = worth_meshing(model, sizes_);
-    for (std::size_t i = 0; i < worth.size(); ++i) is_meshed_[i] &= worth[i];
+    for (std::size_t i = 0; i < worth.size(); ++i) is_meshed_[i] &= worth[i] && !is_far_larger(i);
 }
 
 Operand PrimitiveMesher::operand(std::size_t i, std::span<const FacePoint> points, bool with_cells,
                                  std::vector<std::string>& warnings) const {
     const Primitive& primitive = model_.primitives[i];
+    const auto within = is_far_larger(i) ? bounding_box(model_) : Eigen::AlignedBox3d();
     volmesh::TriMesh surface = tessellate(primitive, {.size = sizes_[i],
+                                                      .within = within,
+                                                      .size_beyond = sizes_beyond_[i],
                                                       .chord_tolerance = options_.chord_tolerance,
                                                       .is_draft = !with_cells,
                                                       .shared = shared_[i]});
@@ -102,7 +120,9 @@ Operand PrimitiveMesher::operand(std::size_t i, std::span<const FacePoint> point
 
 std::vector<Operand> PrimitiveMesher::mesh(BuildReport& report) const {
     const std::size_t n = model_.primitives.size();
-    const std::vector<std::size_t> original = first_alike(model_.primitives, sizes_, shared_);
+    std::vector<std::size_t> original = first_alike(model_.primitives, sizes_, shared_);
+    for (std::size_t i = 0; i < n; ++i)
+        if (is_far_larger(i)) original[i] = i;  // each is fine where the model is
     std::vector<std::uint8_t> with_cells = is_meshed_;
     for (std::size_t i = 0; i < n; ++i) with_cells[original[i]] |= is_meshed_[i];
     std::vector<Operand> operands(n);

@@ -30,12 +30,15 @@ class PrimitiveMesher {
                     std::span<const std::vector<FacePoint>> points, std::vector<std::string>& warnings) const;
 
   private:
+    bool is_far_larger(std::size_t i) const { return sizes_beyond_[i] > sizes_[i]; }
     Operand operand(std::size_t i, std::span<const FacePoint> points, bool with_cells,
                     std::vector<std::string>& warnings) const;
 
     const Model& model_;
     const BuildOptions& options_;
     std::vector<double> sizes_;
+    std::vector<double>
+        sizes_beyond_;  ///< of the far larger ones, of which only surfaces near the model are fine
     std::vector<std::shared_ptr<const SharedSurface>> shared_;
     std::vector<std::uint32_t> first_;
     std::vector<std::uint8_t> is_meshed_;

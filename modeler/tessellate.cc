@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "modeler/tessellate_improve.hh"
+#include "modeler/tessellate_refine.hh"
 #include "modeler/tessellate_seed.hh"
 #include "volmesh/error.hh"
 
@@ -78,6 +79,14 @@ SurfaceSeed seed_shared(const Shape&, const TessellateOptions&, const Sizing&) {
     throw std::logic_error("a shape of a kind that shares no surfaces");
 }
 
+/// How to cut the surface where nothing is asked for in particular.
+TessellateOptions coarse(TessellateOptions options) {
+    if (options.within.isEmpty()) return options;
+    options.size = std::max(options.size, options.size_beyond);
+    options.chord_tolerance = 0;
+    return options;
+}
+
 TriMesh to_mesh(const SurfaceSeed& seed) {
     TriMesh mesh;
     mesh.reserve(seed.points.size(), 3 * seed.triangles.size() / 2, seed.triangles.size());
@@ -98,13 +107,14 @@ TriMesh to_mesh(const SurfaceSeed& seed) {
 
 }  // namespace
 
-TriMesh tessellate(const Primitive& primitive, const TessellateOptions& options) {
-    if (!(options.size > 0) || !std::isfinite(options.size))
+TriMesh tessellate(const Primitive& primitive, const TessellateOptions& wanted) {
+    if (!(wanted.size > 0) || !std::isfinite(wanted.size))
         throw InputError(
-            fmt::format("the size of the edges is {}; it has to be greater than 0", options.size));
-    if (!(options.chord_tolerance >= 0))
+            fmt::format("the size of the edges is {}; it has to be greater than 0", wanted.size));
+    if (!(wanted.chord_tolerance >= 0))
         throw InputError(
-            fmt::format("the chord tolerance is {}; it must not be negative", options.chord_tolerance));
+            fmt::format("the chord tolerance is {}; it must not be negative", wanted.chord_tolerance));
+    const TessellateOptions options = coarse(wanted);
     TriMesh mesh;
     visit(*primitive.shape, [&](const auto& shape) {
         const Sizing sizing(shape, options, thinnest_radius(shape));
@@ -113,8 +123,10 @@ TriMesh tessellate(const Primitive& primitive, const TessellateOptions& options)
             options.shared ? seed_shared(shape, options, sizing) : seed_surface(shape, sizing);
         mesh = to_mesh(seed);
         const bool is_planar = std::ranges::all_of(shape.faces(), &PrimitiveFace::planar);
-        if (!options.is_draft || !is_planar)
-            improve(mesh, shape, sizing, seed.corners, options.shared != nullptr);
+        if (options.is_draft && is_planar) return;
+        improve(mesh, shape, sizing, seed.corners, options.shared != nullptr);
+        if (!options.within.isEmpty())
+            refine_within(mesh, shape, Sizing(shape, wanted, thinnest_radius(shape)), options.within);
     });
     return mesh;
 }

@@ -233,6 +233,41 @@ TEST_CASE("kept cells are the primitive's own, bit by bit") {
     CHECK(same >= report.kept_cells);
 }
 
+TEST_CASE("solids far larger than the model cost no more than others") {
+    constexpr double radius = 1000, size = 0.4, side = 4;
+    const Primitive cube = box("cube", {-2, -2, -2}, {2, 2, 2});
+    const Primitive left = ball("left", {-radius, 0, 0}, radius),
+                    right = ball("right", {radius, 0, 0}, radius);
+    // What the ball has of the cube is side / 2 - depth thick, depth = radius - sqrt(radius^2 - y^2 - z^2).
+    const auto [depth, n] = [] {
+        double sum = 0;
+        constexpr int steps = 400;
+        for (int i = 0; i < steps; ++i)
+            for (int j = 0; j < steps; ++j) {
+                const double y = side * (i + 0.5) / steps - side / 2, z = side * (j + 0.5) / steps - side / 2;
+                sum += radius - std::sqrt(radius * radius - y * y - z * z);
+            }
+        return std::pair(sum, steps * steps);
+    }();
+    const double common = side * side * (side / 2 - depth / n);
+    const double chord = std::pow(1.5 * size, 2) / (8 * radius) * side * side;
+    REQUIRE(chord < side * side * depth / n);  // it is told from a plane
+    const auto check = [&](const std::vector<Primitive>& primitives, const CsgTree& tree, double volume,
+                           double tolerance) {
+        const TetMesh mesh = built({primitives, tree}, size);
+        CHECK(std::abs(volmesh::volume(mesh) - volume) < tolerance);
+        CHECK(mesh.n_cells() > 500);
+        CHECK(mesh.n_cells() < 30000);
+        CHECK(area_of(mesh, "left/surface") == doctest::Approx(side * side).epsilon(1e-4));
+    };
+    check({left, cube}, pair_of(Operation::intersection), common, chord);
+    check({cube, left}, pair_of(Operation::intersection), common, chord);
+    check({cube, left}, pair_of(Operation::difference), side * side * side - common, chord);
+    // Both balls, one a copy of the other, less a gap between them.
+    const CsgTree both{Operation::join, 0, {leaf(0), leaf(1)}};
+    check({left, right, cube}, {Operation::intersection, 0, {both, leaf(2)}}, 2 * common, 2 * chord);
+}
+
 TEST_CASE("a deep tree") {
     Model model;
     model.tree = leaf(0);

@@ -204,3 +204,31 @@ TEST_CASE("Sizes that make no sense are refused") {
         CHECK_THROWS_AS(figures(shape, size), maille::InputError);
     CHECK_THROWS_AS(figures(shape, 1, -1), maille::InputError);
 }
+
+TEST_CASE("triangles are small where it is asked for, and on the surface all over") {
+    constexpr double size = 0.02;
+    for (const Solid& solid : solids()) {
+        CAPTURE(solid.name);
+        const Shape& shape = *solid.shape;
+        const Point place = shape.project(0, shape.bounding_box().corner(Eigen::AlignedBox3d::TopRightCeil));
+        const Eigen::AlignedBox3d box(place - Point::Constant(0.1), place + Point::Constant(0.1));
+        const auto mesh =
+            tessellate({solid.shape, "part", "", 0},
+                       {.size = size, .within = box, .size_beyond = 0.3, .chord_tolerance = 1e-3});
+        const auto f = test::measure(mesh, shape);
+        check_sound(f, shape, solid.euler);
+        CHECK(f.min_angle > 10);
+        CHECK(f.longest > 0.2);
+        int n_near = 0;
+        for (const auto face : mesh.faces()) {
+            Eigen::AlignedBox3d around;
+            for (const auto v : mesh.fv_range(face)) around.extend(mesh.point(v));
+            if (!around.intersects(box)) continue;
+            ++n_near;
+            for (const auto e : mesh.fe_range(face)) CHECK(mesh.calc_edge_length(e) <= size);
+        }
+        CHECK(n_near > 50);
+        // Half of what such triangles everywhere would be.
+        CHECK(static_cast<double>(mesh.n_faces()) < 2 * solid.area / (std::sqrt(3) * size * size));
+    }
+}
