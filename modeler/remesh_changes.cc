@@ -24,6 +24,14 @@ bool keeps_course(const Net& net, Index u, Index w) {
     });
 }
 
+/// The vertices across from the edge, rising.
+std::vector<Index> apexes(const Net& net, Index u, Index w) {
+    std::vector<Index> found;
+    for (const Index t : net.triangles_at(u, w)) found.push_back(apex(net.triangle(t), u, w));
+    std::ranges::sort(found);
+    return found;
+}
+
 /// Draws u onto w, wherever that comes to be, within the triangles of both that are given.
 Change drawn(const Net& net, Index u, Index w, std::vector<Index> triangles, const Vec3& to) {
     Change change;
@@ -62,6 +70,12 @@ Change move(const Net& net, Index v, const Vec3& to) {
     return change;
 }
 
+bool are_linked(const Net& net, Index u, Index w) {
+    std::vector<Index> common;
+    std::ranges::set_intersection(net.neighbours(u), net.neighbours(w), std::back_inserter(common));
+    return common == apexes(net, u, w);
+}
+
 bool keeps_topology(const Net& net, Index u, Index w) {
     switch (net.kind(u)) {
         case VertexKind::face:
@@ -76,14 +90,9 @@ bool keeps_topology(const Net& net, Index u, Index w) {
         case VertexKind::corner:
             return false;
     }
-    std::vector<Index> apexes;
-    for (const Index t : net.triangles_at(u, w)) apexes.push_back(apex(net.triangle(t), u, w));
-    std::ranges::sort(apexes);
-    std::vector<Index> common;
-    std::ranges::set_intersection(net.neighbours(u), net.neighbours(w), std::back_inserter(common));
-    if (common != apexes) return false;
-    return std::ranges::none_of(apexes,
-                                [&](Index x) { return net.is_feature(u, x) && net.is_feature(w, x); });
+    return are_linked(net, u, w) && std::ranges::none_of(apexes(net, u, w), [&](Index x) {
+               return net.is_feature(u, x) && net.is_feature(w, x);
+           });
 }
 
 Change collapse(const Net& net, Index u, Index w) {

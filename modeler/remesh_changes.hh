@@ -12,6 +12,9 @@ Vec3 middle(const Net& net, std::span<const Index> vertices);
 /// The change that moves v, its triangles the same.
 Change move(const Net& net, Index v, const Vec3& to);
 
+/// Whether the neighbours u and w have no others in common than those across from the edge between them.
+bool are_linked(const Net& net, Index u, Index w);
+
 /// Whether the complex keeps its topology when u is drawn onto its neighbour w (the link condition, and that
 /// of the curves).
 bool keeps_topology(const Net& net, Index u, Index w);

@@ -12,6 +12,7 @@ namespace {
 constexpr double on_surface = 1e-13;      // of the size
 constexpr double projection_reach = 1.0;  // of the size: further away no surface is meant
 constexpr double least_after_projection = 1e-3;
+constexpr double same_place = 1e-9;  // of the size
 
 bool is_frozen(const Net& net, Index v) {
     return std::ranges::any_of(net.triangles_at(v), [&](Index t) { return net.patch(t).frozen; });
@@ -50,6 +51,24 @@ std::optional<Vec3> place_to_reach(const Session& session, Index v) {
     // Ten times the tolerance of the moves: projecting again rounds again.
     if (target && (*target - net.point(v)).norm() <= 10 * on_surface * net.size(v)) return std::nullopt;
     return target;
+}
+
+/// Draws v onto a neighbour that is where it has to go itself: between them there is nothing but what flat
+/// triangles make of surfaces that touch, and curves on either side of that become one.
+bool try_closing(Session& session, Index v) {
+    Net& net = session.net;
+    const auto target = place_to_reach(session, v);
+    if (!target || net.kind(v) == VertexKind::corner) return false;
+    for (const Index w : net.neighbours(v)) {
+        if ((net.point(w) - *target).norm() > same_place * net.size(v) || !are_linked(net, v, w)) continue;
+        const Change change = collapse(net, v, w);
+        if (!try_change(session, change,
+                        std::min(worst_quality(net, change.removed), least_after_projection)))
+            continue;
+        net.set_kind(w, VertexKind::corner);
+        return true;
+    }
+    return false;
 }
 
 /// Draws a neighbour that is in the way onto v, which goes where it has to; or leaves v out, if nothing ends
@@ -95,7 +114,8 @@ std::size_t clear_ways(Session& session) {
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
         const std::size_t before = done;
         for (Index v = 0; v < net.n_vertices(); ++v)
-            if (place_to_reach(session, v) && (try_projection(session, v) || try_clearing(session, v)))
+            if (place_to_reach(session, v) &&
+                (try_projection(session, v) || try_closing(session, v) || try_clearing(session, v)))
                 ++done;
         if (done == before) break;
     }

@@ -178,6 +178,54 @@ TEST_CASE("vertices give way to those that have to reach a surface behind them")
     CHECK(std::abs(volume(sample.complex, 0) - (1 - deep)) < 1e-12);
 }
 
+TEST_CASE("a strip that true surfaces leave no room for is closed") {
+    // Two boxes with tops in one plane, but the middle of the second one's edge is too low.
+    const Vec3 a(0, 0, 1), b(1, 0, 1), middle(0.5, 0, 1), low(0.5, 0, 0.9);
+    Builder builder;
+    builder.quad({0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}, 0, outside, 0);
+    builder.triangle(a, middle, {0, 1, 1}, 1, outside, 0);
+    builder.triangle(middle, {1, 1, 1}, {0, 1, 1}, 1, outside, 0);
+    builder.triangle(middle, b, {1, 1, 1}, 1, outside, 0);
+    builder.quad({0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}, 3, outside, 0);
+    builder.quad({0, 0, 0}, a, {0, 1, 1}, {0, 1, 0}, 4, outside, 0);
+    builder.quad({1, 0, 0}, {1, 1, 0}, {1, 1, 1}, b, 5, outside, 0);
+    builder.triangle({0, 0, 0}, {1, 0, 0}, low, 2, 1, 0);
+    builder.triangle({1, 0, 0}, b, low, 2, 1, 0);
+    builder.triangle({0, 0, 0}, low, a, 2, 1, 0);
+    builder.triangle(a, low, middle, 2, outside, 0);
+    builder.triangle(low, b, middle, 2, outside, 0);
+    builder.quad({0, -1, 0}, {0, 0, 0}, {1, 0, 0}, {1, -1, 0}, 0, outside, 1);
+    builder.triangle({0, -1, 1}, {1, -1, 1}, low, 6, outside, 1);
+    builder.triangle({1, -1, 1}, b, low, 6, outside, 1);
+    builder.triangle({0, -1, 1}, low, a, 6, outside, 1);
+    builder.quad({0, -1, 0}, {1, -1, 0}, {1, -1, 1}, {0, -1, 1}, 7, outside, 1);
+    builder.quad({0, -1, 0}, {0, -1, 1}, a, {0, 0, 0}, 4, outside, 1);
+    builder.quad({1, -1, 0}, {1, 0, 0}, b, {1, -1, 1}, 5, outside, 1);
+    Sample sample{
+        builder.complex,
+        {plane({0, 0, 0}, -Vec3::UnitZ()), plane({0, 0, 1}, Vec3::UnitZ()), plane({0, 0, 0}, -Vec3::UnitY()),
+         plane({0, 1, 0}, Vec3::UnitY()), plane({0, 0, 0}, -Vec3::UnitX()), plane({1, 0, 0}, Vec3::UnitX()),
+         plane({0, 0, 1}, Vec3::UnitZ()), plane({0, -1, 0}, -Vec3::UnitY())}};
+    const RemeshGeometry shape = geometry(sample.surfaces, 0.5);
+    const maille::modeler::RemeshOptions options;
+    remeshing::Session session{remeshing::make_net(sample.complex, shape), shape, options};
+    remeshing::project_vertices(session);
+    CHECK(remeshing::count_short_of_surface(session) == 1);
+    remeshing::clear_ways(session);
+    CHECK(remeshing::count_short_of_surface(session) == 0);
+    const std::size_t before = sample.complex.points.size();
+    sample.complex = remeshing::make_complex(session.net);
+    CHECK(sample.complex.points.size() == before - 1);
+    CHECK(largest_distance(sample) < 1e-12);
+    for (const Region region : {0, 1}) {
+        CHECK(is_closed(sample.complex, region));
+        CHECK(volume(sample.complex, region) == doctest::Approx(1).epsilon(1e-12));
+    }
+    CHECK_FALSE(crosses_itself(sample));
+    for (const Facet& facet : sample.complex.facets)
+        CHECK((facet.surface != 2 || std::min(facet.front, facet.back) != outside));
+}
+
 TEST_CASE("frozen facets stay bit by bit") {
     Sample sample = cut_ball(12, 0.3, Vec3(1, 2, 3));
     for (Facet& f : sample.complex.facets) f.frozen = f.back == 1 && f.surface == 0;
