@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
+#include <boost/container/small_vector.hpp>
 
 #include "modeler/remesh_exact.hh"
 
@@ -38,16 +39,52 @@ double wrong_area(const Session& session, const Patch& patch, const Corners& cor
     return along < least * twice_area ? twice_area / 2 : 0;
 }
 
-/// Whether no more area points the wrong way than before: what comes in wrong may stay for a while.
-bool keeps_facing(const Session& session, const std::vector<PlacedTriangle>& added, const Change& change) {
-    double after = 0;
+double wrong_area(const Session& session, const std::vector<PlacedTriangle>& added, const Change& change) {
+    double sum = 0;
     for (std::size_t i = 0; i < added.size(); ++i)
-        after += wrong_area(session, session.net.patch(change.added[i]), added[i].corners);
-    if (after == 0) return true;
-    double before = 0;
+        sum += wrong_area(session, session.net.patch(change.added[i]), added[i].corners);
+    return sum;
+}
+
+double wrong_area_before(const Session& session, const Change& change) {
+    double sum = 0;
     for (const Index t : change.removed)
-        before += wrong_area(session, session.net.patch(t), session.net.corners(t));
-    return after <= before;
+        sum += wrong_area(session, session.net.patch(t), session.net.corners(t));
+    return sum;
+}
+
+using Rim = boost::container::small_vector<std::array<Index, 2>, 48>;
+
+/// The edges of the triangles that have no other one on their other side, as the triangles run.
+template <class Triangles>
+Rim rim_of(const Triangles& triangles) {
+    Rim rim;
+    for (const Triangle& t : triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::array<Index, 2> edge{t.vertices[i], t.vertices[(i + 1) % 3]};
+            const auto back = std::ranges::find(rim, std::array{edge[1], edge[0]});
+            if (back == rim.end())
+                rim.push_back(edge);
+            else
+                rim.erase(back);
+        }
+    std::ranges::sort(rim);
+    return rim;
+}
+
+/// Whether all is within one planar patch and the rim stays. Where the new triangles all point the right way,
+/// they then cover what the old ones did, each place once, and meet nothing that these didn't.
+bool keeps_its_rim(const Net& net, const Change& change) {
+    const Index patch = net.triangle(change.removed.front()).patch;
+    if (!net.patch(change.removed.front()).planar) return false;
+    const auto is_elsewhere = [&](const Triangle& t) { return t.patch != patch; };
+    boost::container::small_vector<Triangle, 16> removed;
+    for (const Index t : change.removed) removed.push_back(net.triangle(t));
+    if (std::ranges::any_of(removed, is_elsewhere) || std::ranges::any_of(change.added, is_elsewhere))
+        return false;
+    const Rim rim = rim_of(removed);
+    const auto is_moved = [&](const auto& edge) { return edge[0] == change.moved; };
+    return std::ranges::none_of(rim, is_moved) && rim == rim_of(change.added);
 }
 
 /// Triangles that all point the way of their plane fill it like a map: while their common rim stays they
@@ -176,9 +213,16 @@ bool try_change(Session& session, const Change& change, double least_quality) {
         added.push_back(placed(net, change, triangle));
         if (quality(added.back().corners) < least_quality) return false;
     }
-    if (!keeps_facing(session, added, change) || doubles_a_triangle(net, change)) return false;
+    // What comes in wrong may stay so for a while.
+    const double wrong = wrong_area(session, added, change);
+    if (wrong > 0 && wrong > wrong_area_before(session, change)) return false;
+    if (doubles_a_triangle(net, change)) return false;
     for (const PlacedTriangle& triangle : added)
         if (quality(triangle.corners) < 1e-12 && has_no_area(triangle.corners)) return false;
+    if (wrong == 0 && keeps_its_rim(net, change)) {
+        net.apply(change);
+        return true;
+    }
     if (meets_a_neighbour(net, added, change) || meet_each_other(net, added, change)) return false;
     if (sweeps_over_a_vertex(net, change)) return false;
     net.apply(change);
