@@ -82,7 +82,7 @@ void Net::detach(Index t) {
         std::erase(around_[v], t);
         touched_[v] = now_;
     }
-    tree_.erase({t, corners(t)});
+    tree_.erase(t);
 }
 
 void Net::set_size(Index v, double size) {

@@ -17,7 +17,7 @@ using Vec3 = Eigen::Vector3d;
 using Corners = std::array<Vec3, 3>;
 
 /// Finds the triangles near a place: a tree of boxes that follows every change, whatever the lengths of the
-/// edges.
+/// edges. Its boxes are somewhat larger than the triangles', so that most small moves leave it as it is.
 class TriangleTree {
   public:
     struct Entry {
@@ -25,6 +25,7 @@ class TriangleTree {
         Corners corners;
     };
 
+    /// Stays empty, whatever is put in.
     TriangleTree();
     /// Packs the triangles, which makes better boxes than one after another does.
     explicit TriangleTree(std::span<const Entry> entries);
@@ -33,8 +34,7 @@ class TriangleTree {
     ~TriangleTree();
 
     void insert(const Entry& entry);
-    /// Takes out what was put in with the same corners.
-    void erase(const Entry& entry);
+    void erase(Index triangle);
 
     /// Appends the triangles whose boxes meet the corners', or this one.
     void collect(const Corners& corners, std::vector<Index>& found) const;
@@ -42,7 +42,11 @@ class TriangleTree {
 
   private:
     struct Tree;
+    void make_room(Index triangle);
+
     std::unique_ptr<Tree> tree_;
+    std::vector<Eigen::AlignedBox3d> boxes_;       ///< by triangle; empty where there is none
+    std::vector<Eigen::AlignedBox3d> tree_boxes_;  ///< by triangle: that in the tree, if any
 };
 
 }  // namespace maille::modeler::remeshing
