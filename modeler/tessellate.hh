@@ -12,12 +12,11 @@ struct SharedSurface;
 
 /// How finely a primitive's surface is cut into triangles.
 struct TessellateOptions {
-    double size = 0;  ///< wanted edge length; has to be given
-    /// Where it is wanted: the triangles may be as large as `size_beyond` elsewhere. Empty: everywhere.
-    Eigen::AlignedBox3d within{};
-    double size_beyond = 0;
-    double chord_tolerance = 0;  ///< greatest distance from a triangle to the true surface; 0: no limit
-    bool is_draft = false;       ///< planar faces may have badly shaped triangles: they are made anew later
+    double size = 0;               ///< wanted edge length; has to be given
+    Eigen::AlignedBox3d within{};  ///< where that is wanted; empty: everywhere
+    double size_beyond = 0;        ///< how large the triangles may be elsewhere
+    double chord_tolerance = 0;    ///< greatest distance from a triangle to the true surface; 0: no limit
+    bool is_draft = false;         ///< planar faces may have badly shaped triangles: they are made anew later
     /// How the curved surface is cut that the primitive shares with others; null: as the primitive likes.
     std::shared_ptr<const SharedSurface> shared{};
 };
