@@ -78,8 +78,8 @@ void merge_close_coordinates(std::vector<Point>& points) {
 
 using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The face on the left of each directed edge. Throws unless every edge has one face on each side.
-std::map<DirectedEdge, std::uint32_t> check_closed(const Faces& faces) {
+/// Throws unless every edge has one face on each side.
+void check_closed(const Faces& faces) {
     std::map<DirectedEdge, std::uint32_t> left;
     for (std::uint32_t i = 0; i < faces.size(); ++i)
         for (const Loop& loop : faces[i].loops)
@@ -98,29 +98,35 @@ std::map<DirectedEdge, std::uint32_t> check_closed(const Faces& faces) {
             throw InputError(fmt::format(
                 "the polyhedron is not closed: only face \"{}\" has the edge from point {} to point {}",
                 faces[face].name, edge.first, edge.second));
-    return left;
 }
 
-/// Throws where the faces around a point are not one fan: parts of the solid that touch at a point only.
-void check_fans(const Faces& faces, const std::map<DirectedEdge, std::uint32_t>& left) {
-    std::map<std::uint32_t, std::vector<std::uint32_t>> outgoing;
+/// Where parts touch at a point only, each gets a point of its own there: the faces around it are several
+/// fans.
+void part_fans(std::vector<Point>& points, Faces& faces) {
     std::map<DirectedEdge, std::uint32_t> previous;  // of each directed edge: the start of the one before it
     for (const PolyhedronFace& face : faces)
         for (const Loop& loop : face.loops)
             for (std::size_t k = 0; k < loop.size(); ++k)
                 previous[{loop[k], loop[(k + 1) % loop.size()]}] = loop[(k + loop.size() - 1) % loop.size()];
-    for (const auto& [edge, face] : left) outgoing[edge.first].push_back(edge.second);
-    for (const auto& [vertex, ends] : outgoing) {
-        std::size_t turned = 0;
-        std::uint32_t end = ends.front();
-        do {
-            end = previous.at({vertex, end});
-            ++turned;
-        } while (end != ends.front());
-        if (turned != ends.size())
-            throw InputError(
-                fmt::format("parts of the polyhedron touch each other at point {} only", vertex));
+    std::map<DirectedEdge, std::uint32_t> start;  // of each directed edge, once it is known
+    std::vector<std::uint8_t> is_taken(points.size());
+    for (const auto& [edge, before] : previous) {
+        if (start.contains(edge)) continue;
+        std::uint32_t point = edge.first;
+        if (is_taken[point]) {
+            points.push_back(points[point]);
+            point = static_cast<std::uint32_t>(points.size()) - 1;
+        } else {
+            is_taken[point] = 1;
+        }
+        for (DirectedEdge e = edge; start.emplace(e, point).second;) e.second = previous.at(e);
     }
+    for (PolyhedronFace& face : faces)
+        for (Loop& loop : face.loops) {
+            const Loop given = loop;
+            for (std::size_t k = 0; k < loop.size(); ++k)
+                loop[k] = start.at({given[k], given[(k + 1) % given.size()]});
+        }
 }
 
 /// Appends the face, in triangles if it is not planar.
@@ -161,7 +167,8 @@ std::shared_ptr<const Shape> make_polyhedron(std::vector<Point> points, std::vec
     check_indices(points, faces);
     weld(points, faces);
     agree_on_sense(faces);
-    check_fans(faces, check_closed(faces));
+    check_closed(faces);
+    part_fans(points, faces);
     for (Point& p : points) p = frame * p;
     merge_close_coordinates(points);
     turn_outwards(points, faces);

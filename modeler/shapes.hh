@@ -63,8 +63,8 @@ struct PolyhedronFace {
 };
 
 /// A closed polyhedron, convex or not. Each edge belongs to exactly two faces; those that are inside out are
-/// turned round. Equal points are taken for one. A face that is not planar is cut into triangles, each a
-/// surface of its own with the face's name.
+/// turned round. Equal points are taken for one, but where parts touch in it only. A face that is not planar
+/// is cut into triangles, each a surface of its own with the face's name.
 std::shared_ptr<const Shape> make_polyhedron(std::vector<Point> points, std::vector<PolyhedronFace> faces,
                                              const Eigen::Affine3d& frame = Eigen::Affine3d::Identity());
 

@@ -368,6 +368,31 @@ TEST_CASE("a polyhedron that overlaps itself is what it winds around") {
     CHECK(volume_of(parts, "block") == exactly(7 * 9 * 3 - 17));
 }
 
+TEST_CASE("a polyhedron may touch itself in a point") {
+    const auto check = [](const std::string& text, double volume, double area) {
+        CAPTURE(text);
+        const TetMesh mesh = built(parse_model(text, "part.csg", Facets::keep), 0.5);
+        CHECK(volmesh::volume(mesh) == exactly(volume));
+        double found = 0;
+        for (const auto f : mesh.boundary_faces()) found += volmesh::area(mesh, mesh.halfface_handle(f, 0));
+        CHECK(found == exactly(area));
+    };
+    // Two tetrahedra, tip to tip.
+    const std::string hourglass =
+        "polyhedron(points = [[0, 0, 0], [1, 0, 1], [0, 1, 1], [0, 0, 1], [1, 0, -1], [0, 1, -1], [0, 0, "
+        "-1]], "
+        "faces = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2], [0, 5, 4], [0, 6, 5], [0, 4, 6], [4, 5, 6]]);";
+    const double sides = 0.5 + 0.5 + 0.5 + std::sqrt(3) / 2;
+    check(hourglass, 1.0 / 3, 2 * sides);
+    check("difference() { " + hourglass + " translate([-1, -1, 0]) cube(3); }", 1.0 / 6, sides);
+    // A disc with a dent that is as deep as it is thick.
+    constexpr int n = 12;
+    const double flat = n / 2.0 * 4 * std::sin(2 * std::numbers::pi / n);
+    const double edge = 4 * std::sin(std::numbers::pi / n), middle = 2 * std::cos(std::numbers::pi / n);
+    check("rotate_extrude($fn = 12) polygon([[0, 0], [2, 0], [2, 1]]);", flat * 2 / 3,
+          flat + n * edge + n * edge * std::hypot(middle, 1) / 2);
+}
+
 TEST_CASE("no edge is much longer than the size, whatever triangles the surfaces come with") {
     const Model model = read_model(MAILLE_SOURCE_DIR "/examples/bracket.csg");
     for (const double size : {4.0, 5.0, 6.0}) {
