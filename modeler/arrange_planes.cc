@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
@@ -24,6 +25,7 @@ struct Plane {
     std::uint32_t seed;                     ///< its largest facet
     std::vector<std::uint32_t> vertices{};  ///< of its facets, and of others that touch it
     std::vector<Region> primitives{};       ///< that these facets belong to
+    bool shared = false;                    ///< whether facets of two primitives lie in it
     bool active = false;
 
     double distance(const Vector3d& p) const { return std::abs(normal.dot(p - origin)); }
@@ -76,6 +78,14 @@ class PlaneFinder {
             plane.vertices.push_back(v);
             for (const auto r : {f.front, f.back})
                 if (r != outside) plane.primitives.push_back(r);
+        }
+    }
+
+    /// To be called when all facets are there, before contacts are added.
+    void find_shared() {
+        for (Plane& plane : planes_) {
+            sort_unique(plane.primitives);
+            plane.shared = plane.primitives.size() > 1;
         }
     }
 
@@ -204,10 +214,12 @@ class Lifter {
     Lifter(const std::vector<Plane>& planes, const std::vector<ExactPlane>& exact_planes, double tolerance)
         : planes_(planes), exact_(exact_planes), tolerance_(tolerance) {}
 
-    /// The point near p on up to three of the planes, most populated first.
+    /// The point near p on up to three of the planes: first those in which facets coincide, as they would not
+    /// where a corner is off, then the most populated ones.
     ExactPoint lift(const Vector3d& p, std::vector<std::uint32_t> candidates) const {
         std::ranges::sort(candidates, {}, [&](std::uint32_t i) {
-            return std::pair(-static_cast<std::ptrdiff_t>(planes_[i].vertices.size()), i);
+            return std::tuple(!planes_[i].shared, -static_cast<std::ptrdiff_t>(planes_[i].vertices.size()),
+                              i);
         });
         std::vector<std::uint32_t> chosen = independent(candidates);
         const ExactPoint start = exact(p);
@@ -296,6 +308,7 @@ ExactPositions positions_on_planes(const FacetComplex& complex, std::span<const 
     ExactPositions result = positions_as_given(complex);
     PlaneFinder finder(complex, tolerance);
     for (const auto facet : largest_first(complex, pairs)) finder.add(facet);
+    finder.find_shared();
     for (const auto& [a, b] : pairs) finder.add_contacts(a, b), finder.add_contacts(b, a);
     std::vector<Plane>& planes = finder.planes();
     activate(planes, complex.points.size());

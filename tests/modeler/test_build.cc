@@ -368,6 +368,27 @@ TEST_CASE("a polyhedron that overlaps itself is what it winds around") {
     CHECK(volume_of(parts, "block") == exactly(7 * 9 * 3 - 17));
 }
 
+TEST_CASE("faces that coincide do so to the last corner, also where that lies on another face") {
+    // The cylinder's end goes through the corner in which three faces of one box lie on three of the other.
+    const TetMesh mesh =
+        built(parse_model("multmatrix([[0.92388, -0.190155, -0.332096, 0], [0, -0.867809, 0.496898, 0], "
+                          "[-0.382683, -0.459074, -0.801751, 0], [0, 0, 0, 1]]) "
+                          "cylinder(h = 6, r = 3.3); "
+                          "multmatrix([[0.835807, 0.0953368, 0.540682, 0], [0, 0.984808, -0.173648, 0], "
+                          "[-0.549023, 0.145136, 0.82311, 0], [0, 0, 0, 1]]) "
+                          "{ cube([4, 9, 6]); cube([6, 2, 6]); }",
+                          "part.csg", Facets::round),
+              0.8);
+    double flattest = 1;
+    for (const auto c : mesh.cells()) {
+        double longest = 0;
+        for (const Vector3d& p : mesh.cell_points(c))
+            for (const Vector3d& q : mesh.cell_points(c)) longest = std::max(longest, (p - q).norm());
+        flattest = std::min(flattest, volmesh::volume(mesh, c) / std::pow(longest, 3));
+    }
+    CHECK(flattest > 1e-9);
+}
+
 TEST_CASE("a polyhedron may touch itself in a point") {
     const auto check = [](const std::string& text, double volume, double area) {
         CAPTURE(text);
