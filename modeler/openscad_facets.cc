@@ -18,9 +18,11 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-/// Sine of an angle from 0 to 90 degrees.
+/// Sine of an angle from 0 to 90 degrees, OpenSCAD's to the last bit: that decides how arcs are divided.
 double sine_of_acute(double angle) {
     if (angle == 30) return 0.5;
+    if (angle == 45) return std::sqrt(0.5);
+    if (angle == 60) return std::sqrt(3.0) / 2;
     return angle <= 45 ? std::sin(radians(angle)) : std::cos(radians(90 - angle));
 }
 

@@ -107,6 +107,10 @@ TEST_CASE("an offset grows and shrinks as OpenSCAD's does") {
     const double round = area("offset(r = 1, $fn = 64) square(10);");
     CHECK(round < 100 + 40 + pi);
     CHECK(round > 100 + 40 + polygon_area(48, 1));
+    // An arc of a quarter has a quarter of the facets, to a whole number: a half is less, as 2021.01 has it.
+    CHECK(area("offset(r = 1, $fn = 6) square(10);") == doctest::Approx(140 + 4 * 0.5).epsilon(1e-9));
+    CHECK(area("offset(r = 1, $fn = 10) square(10);") ==
+          doctest::Approx(140 + 4 * (sin_degrees(36) + sin_degrees(54)) / 2).epsilon(1e-5));
     // Shrinking rounds the corners that point inwards, and what is thinner is gone.
     const double between_arcs = 1 - (std::sqrt(3) / 4 + pi / 6);
     CHECK(area("offset(r = -1, $fn = 360) union() { square(10); translate([10, 4]) square([5, 1]); }") ==

@@ -45,7 +45,10 @@ TEST_CASE("angles in degrees are exact where they can be") {
     CHECK(cos_degrees(-270) == 0);
     CHECK(cos_degrees(180) == -1);
     CHECK(cos_degrees(720) == 1);
-    CHECK(sin_degrees(45) == doctest::Approx(cos_degrees(45)).epsilon(1e-15));
+    CHECK(sin_degrees(45) == std::sqrt(0.5));
+    CHECK(cos_degrees(45) == std::sqrt(0.5));
+    CHECK(sin_degrees(120) == std::sqrt(3.0) / 2);
+    CHECK(cos_degrees(30) == std::sqrt(3.0) / 2);
     for (double angle = -800; angle < 800; angle += 7.3) {
         CHECK(sin_degrees(angle) == doctest::Approx(std::sin(angle * std::numbers::pi / 180)).epsilon(1e-12));
         CHECK(cos_degrees(angle) == doctest::Approx(std::cos(angle * std::numbers::pi / 180)).epsilon(1e-12));
