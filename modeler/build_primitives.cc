@@ -11,6 +11,7 @@
 #include "modeler/build_worth.hh"
 #include "modeler/closed_surface.hh"
 #include "modeler/parallel.hh"
+#include "modeler/shape_turned.hh"
 #include "modeler/tessellate.hh"
 #include "modeler/tetrahedralize.hh"
 #include "volmesh/error.hh"
@@ -107,6 +108,8 @@ Operand PrimitiveMesher::operand(std::size_t i, std::span<const FacePoint> point
     Operand operand{primitive.name, sizes_[i], closed_surface(surface, first_[i]), {}};
     if (const auto* polyhedron = dynamic_cast<const Polyhedron*>(primitive.shape.get()))
         operand.surface.crosses_itself = crosses_itself(closed_surface(*polyhedron));
+    else if (dynamic_cast<const Turned*>(primitive.shape.get()) != nullptr)
+        operand.surface.crosses_itself = crosses_itself(operand.surface);  // it may touch itself on the axis
     if (!with_cells || !options_.keep_cells || operand.surface.crosses_itself) return operand;
     try {
         operand.mesh = tetrahedralize(surface, sizes_[i],

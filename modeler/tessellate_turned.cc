@@ -60,15 +60,25 @@ class Seeder {
   private:
     static constexpr std::uint32_t none = ~0U;
 
+    /// Whether two curved sides have nothing but a point of the axis in common: each gets a point of its own
+    /// there.
+    bool touches_itself(const SideStations& before, const SideStations& after) const {
+        return shape_.is_full() && after.edge->from.x() == 0 && is_curved(before) && is_curved(after);
+    }
+
     void add_loop(std::vector<SideStations>& sides, std::vector<Loop>& start_loops,
                   std::vector<Loop>& end_loops) {
         const std::size_t n = sides.size();
-        std::vector<Station> corners;
-        for (std::size_t i = 0; i < n; ++i) corners.push_back(corner(sides[(i + n - 1) % n], sides[i]));
+        std::vector<Station> corners, arrivals;  // where sides begin and end
+        for (std::size_t i = 0; i < n; ++i) {
+            const SideStations& before = sides[(i + n - 1) % n];
+            corners.push_back(corner(before, sides[i]));
+            arrivals.push_back(touches_itself(before, sides[i]) ? corner(before, sides[i]) : corners.back());
+        }
         Loop &start = start_loops.emplace_back(), &end = end_loops.emplace_back();
         for (std::size_t i = 0; i < n; ++i) {
             add_stations(sides[i]);
-            cover(sides[i], corners[i], corners[(i + 1) % n]);
+            cover(sides[i], corners[i], arrivals[(i + 1) % n]);
             start.push_back(corners[i].start);
             end.push_back(corners[i].end);
             for (const Station& station : sides[i].within) {

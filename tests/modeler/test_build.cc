@@ -412,6 +412,12 @@ TEST_CASE("a polyhedron may touch itself in a point") {
     const double edge = 4 * std::sin(std::numbers::pi / n), middle = 2 * std::cos(std::numbers::pi / n);
     check("rotate_extrude($fn = 12) polygon([[0, 0], [2, 0], [2, 1]]);", flat * 2 / 3,
           flat + n * edge + n * edge * std::hypot(middle, 1) / 2);
+    BuildReport report;
+    const TetMesh disc =
+        built(parse_model("rotate_extrude() polygon([[1, 0], [2, 0], [0, 1]]);", "part.csg", Facets::round),
+              0.2, &report);
+    CHECK(report.warnings.empty());
+    CHECK(volmesh::volume(disc) == doctest::Approx(std::numbers::pi).epsilon(0.02));
 }
 
 TEST_CASE("no edge is much longer than the size, whatever triangles the surfaces come with") {
