@@ -75,12 +75,6 @@ bool crosses_itself(const ClosedSurface& surface) {
 
 }  // namespace
 
-double diagonal(const Model& model) {
-    Eigen::AlignedBox3d box;
-    for (const Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
-    return box.diagonal().norm();
-}
-
 PrimitiveMesher::PrimitiveMesher(const Model& model, const BuildOptions& options)
     : model_(model),
       options_(options),

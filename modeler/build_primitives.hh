@@ -13,9 +13,6 @@
 
 namespace maille::modeler {
 
-/// The diagonal of the box around all primitives, also of what is cut off.
-double diagonal(const Model& model);
-
 /// Meshes the primitives of a model, each by itself. The model must outlive it.
 class PrimitiveMesher {
   public:

@@ -23,6 +23,12 @@ Eigen::AlignedBox3d bounding_box(const Model& model) {
     return bounding_box(model.tree, model.primitives);
 }
 
+double diagonal(const Model& model) {
+    Eigen::AlignedBox3d box;
+    for (const Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
+    return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
 std::vector<ModelSurface> surfaces(const Model& model) {
     std::vector<ModelSurface> result;
     for (std::uint32_t index = 0; index < model.primitives.size(); ++index) {

@@ -45,6 +45,9 @@ Eigen::AlignedBox3d bounding_box(const Model& model);
 /// The same of a part of a tree over the primitives.
 Eigen::AlignedBox3d bounding_box(const CsgTree& tree, const std::vector<Primitive>& primitives);
 
+/// The diagonal of the box around all primitives, also of what is cut off; 0 where there is none.
+double diagonal(const Model& model);
+
 /// Faces between two regions of the mesh lie on a surface too, but are no part of its boundary: their face
 /// set has the surface's name with this after it.
 inline constexpr std::string_view inner_suffix = "/inner";

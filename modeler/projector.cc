@@ -24,12 +24,6 @@ std::vector<ShapeFace> all_faces(const Model& model) {
     return faces;
 }
 
-double size_of(const Model& model) {
-    Eigen::AlignedBox3d box;
-    for (const Primitive& primitive : model.primitives) box.extend(primitive.shape->bounding_box());
-    return box.isEmpty() ? 0 : box.diagonal().norm();
-}
-
 std::optional<Point> project_to(std::span<const ShapeFace> faces, double size, const Point& p) {
     if (faces.empty()) return p;
     if (faces.size() == 1) return faces.front().shape->project(faces.front().face, p);
@@ -43,7 +37,7 @@ void add(std::vector<ShapeFace>& faces, const ShapeFace& face) {
 }  // namespace
 
 SurfaceProjection surface_projection(const Model& model) {
-    return [shapes = shapes_of(model), all = all_faces(model), size = size_of(model)](
+    return [shapes = shapes_of(model), all = all_faces(model), size = diagonal(model)](
                std::span<const std::uint32_t> numbers, const Point& p) {
         std::vector<ShapeFace> faces;
         for (std::uint32_t number : numbers) add(faces, all[number]);
@@ -65,7 +59,7 @@ volmesh::Projector projector(const Model& given) {
             result.surfaces.push_back(name);
             numbers.push_back(number);
         }
-    result.model_size = size_of(model);
+    result.model_size = diagonal(model);
     result.project = [project = surface_projection(model), numbers](std::span<const std::uint32_t> asked,
                                                                     const Point& p) {
         std::vector<std::uint32_t> surfaces;
