@@ -71,6 +71,22 @@ bool try_closing(Session& session, Index v) {
     return false;
 }
 
+/// Whether w, at p, is no farther from where it belongs than `way` once the change is done: drawn together,
+/// two vertices may come to lie on surfaces that have no common point there.
+bool brings_near(const Session& session, const Change& change, Index w, const Vec3& p, double way) {
+    const Net& net = session.net;
+    std::vector<std::uint32_t> surfaces;
+    for (const Triangle& t : change.added)
+        if (contains(t, w)) surfaces.push_back(net.patch(t).surface);
+    for (const Index t : net.triangles_at(w))
+        if (std::ranges::find(change.removed, t) == change.removed.end())
+            surfaces.push_back(net.patch(t).surface);
+    std::ranges::sort(surfaces);
+    surfaces.erase(std::ranges::unique(surfaces).begin(), surfaces.end());
+    const auto place = nearest(session, surfaces, net.kind(w), p, projection_reach * net.size(w));
+    return place && (*place - p).norm() <= way;
+}
+
 /// Draws a neighbour that is in the way onto v, which goes where it has to; or leaves v out, if nothing ends
 /// there; or else draws what is nearer to that place than v onto it, to make room.
 bool try_clearing(Session& session, Index v) {
@@ -79,18 +95,20 @@ bool try_clearing(Session& session, Index v) {
     if (!target) return false;
     std::vector<Index> others = net.neighbours(v);
     std::ranges::stable_sort(others, {}, [&](Index u) { return (net.point(u) - *target).norm(); });
-    const auto try_it = [&](const Change& change) {
-        return try_change(session, change,
+    const double way = (net.point(v) - *target).norm();
+    const auto try_drawing = [&](Index from, Index onto, const Vec3& place) {
+        if (!keeps_topology(net, from, onto)) return false;
+        const Change change = collapse(net, from, onto, place);
+        return brings_near(session, change, onto, place, way) &&
+               try_change(session, change,
                           std::min(worst_quality(net, change.removed), least_after_projection));
     };
     for (const Index u : others)
-        if (keeps_topology(net, u, v) && try_it(collapse(net, u, v, *target))) return true;
+        if (try_drawing(u, v, *target)) return true;
     for (const Index w : others)
-        if (keeps_topology(net, v, w) && try_it(collapse(net, v, w))) return true;
-    const double way = (net.point(v) - *target).norm();
+        if (try_drawing(v, w, net.point(w))) return true;
     for (const Index u : others)
-        if ((net.point(u) - *target).norm() < way && keeps_topology(net, u, v) && try_it(collapse(net, u, v)))
-            return true;
+        if ((net.point(u) - *target).norm() < way && try_drawing(u, v, net.point(v))) return true;
     return false;
 }
 
