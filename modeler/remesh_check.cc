@@ -151,15 +151,11 @@ bool doubles_a_triangle(const Net& net, const Change& change) {
         std::ranges::sort(v);
         return v;
     };
-    std::vector<std::array<Index, 3>> seen;
     // Where a vertex only moves, its triangles are the same.
-    const auto stays = [&](std::size_t i) {
-        return i < change.removed.size() &&
-               change.added[i].vertices == net.triangle(change.removed[i]).vertices;
-    };
-    std::size_t n_same = 0;
-    while (n_same < change.added.size() && stays(n_same)) ++n_same;
-    if (n_same == change.added.size()) return false;
+    if (std::ranges::equal(change.added, change.removed, {}, &Triangle::vertices,
+                           [&](Index t) { return net.triangle(t).vertices; }))
+        return false;
+    std::vector<std::array<Index, 3>> seen;
     for (const Triangle& triangle : change.added) {
         const auto key = sorted(triangle.vertices);
         if (std::ranges::find(seen, key) != seen.end()) return true;
