@@ -59,10 +59,6 @@ bool face_each_other(const Net& net, Index v, Index t, const Vec3& from_v_to_t) 
            });
 }
 
-Eigen::AlignedBox3d box_of(const Corners& corners) {
-    return Eigen::AlignedBox3d(corners[0]).extend(corners[1]).extend(corners[2]);
-}
-
 /// Which side of the triangle the edge is.
 std::size_t side(const Triangle& triangle, Index a, Index b) {
     for (std::size_t i = 0; i < 2; ++i)

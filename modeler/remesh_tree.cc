@@ -23,16 +23,16 @@ Box to_box(const Eigen::AlignedBox3d& box) {
     return {place(box.min()), place(box.max())};
 }
 
-Eigen::AlignedBox3d box_of(const Corners& corners) {
-    return Eigen::AlignedBox3d(corners[0]).extend(corners[1]).extend(corners[2]);
-}
-
 Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box) {
     const Vec3 margin = Vec3::Constant(margin_in_diagonals * box.diagonal().norm());
     return {box.min() - margin, box.max() + margin};
 }
 
 }  // namespace
+
+Eigen::AlignedBox3d box_of(const Corners& corners) {
+    return Eigen::AlignedBox3d(corners[0]).extend(corners[1]).extend(corners[2]);
+}
 
 struct TriangleTree::Tree : geometry::index::rtree<Value, geometry::index::quadratic<most_children>> {
     using rtree::rtree;

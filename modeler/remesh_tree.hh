@@ -16,6 +16,9 @@ using Index = std::uint32_t;
 using Vec3 = Eigen::Vector3d;
 using Corners = std::array<Vec3, 3>;
 
+/// The box around a triangle.
+Eigen::AlignedBox3d box_of(const Corners& corners);
+
 /// Finds the triangles near a place: a tree of boxes that follows every change, whatever the lengths of the
 /// edges. Its boxes are somewhat larger than the triangles', so that most small moves leave it as it is.
 class TriangleTree {

@@ -148,6 +148,18 @@ TEST_CASE("equal cylinders crossing: four curves meet at either pole") {
                                   [&](const Vec3& p) { return (p - Vec3(0, 0, pole)).norm() < 1e-12; }));
 }
 
+/// So many vertices are short of their surfaces before it, and none after.
+void clear_ways_of(Sample& sample, std::size_t n_short) {
+    const RemeshGeometry shape = geometry(sample.surfaces, 0.5);
+    const maille::modeler::RemeshOptions options;
+    remeshing::Session session{remeshing::make_net(sample.complex, shape), shape, options};
+    remeshing::project_vertices(session);
+    CHECK(remeshing::count_short_of_surface(session) == n_short);
+    remeshing::clear_ways(session);
+    CHECK(remeshing::count_short_of_surface(session) == 0);
+    sample.complex = remeshing::make_complex(session.net);
+}
+
 TEST_CASE("vertices give way to those that have to reach a surface behind them") {
     // A box with a ring of vertices around it, nearer to its end than the plane which that is to lie in.
     const double ring = 0.1, deep = 0.15;
@@ -164,14 +176,7 @@ TEST_CASE("vertices give way to those that have to reach a surface behind them")
                   {plane({0, 0, 0}, -Vec3::UnitZ()), plane({0, 0, 1}, Vec3::UnitZ()),
                    plane({0, 0, 0}, -Vec3::UnitY()), plane({0, 1, 0}, Vec3::UnitY()),
                    plane({deep, 0, 0}, -Vec3::UnitX()), plane({1, 0, 0}, Vec3::UnitX())}};
-    const RemeshGeometry shape = geometry(sample.surfaces, 0.5);
-    const maille::modeler::RemeshOptions options;
-    remeshing::Session session{remeshing::make_net(sample.complex, shape), shape, options};
-    remeshing::project_vertices(session);
-    CHECK(remeshing::count_short_of_surface(session) == 4);
-    remeshing::clear_ways(session);
-    CHECK(remeshing::count_short_of_surface(session) == 0);
-    sample.complex = remeshing::make_complex(session.net);
+    clear_ways_of(sample, 4);
     CHECK(largest_distance(sample) < 1e-12);
     CHECK(is_closed(sample.complex, 0));
     CHECK_FALSE(crosses_itself(sample));
@@ -206,15 +211,8 @@ TEST_CASE("a strip that true surfaces leave no room for is closed") {
         {plane({0, 0, 0}, -Vec3::UnitZ()), plane({0, 0, 1}, Vec3::UnitZ()), plane({0, 0, 0}, -Vec3::UnitY()),
          plane({0, 1, 0}, Vec3::UnitY()), plane({0, 0, 0}, -Vec3::UnitX()), plane({1, 0, 0}, Vec3::UnitX()),
          plane({0, 0, 1}, Vec3::UnitZ()), plane({0, -1, 0}, -Vec3::UnitY())}};
-    const RemeshGeometry shape = geometry(sample.surfaces, 0.5);
-    const maille::modeler::RemeshOptions options;
-    remeshing::Session session{remeshing::make_net(sample.complex, shape), shape, options};
-    remeshing::project_vertices(session);
-    CHECK(remeshing::count_short_of_surface(session) == 1);
-    remeshing::clear_ways(session);
-    CHECK(remeshing::count_short_of_surface(session) == 0);
     const std::size_t before = sample.complex.points.size();
-    sample.complex = remeshing::make_complex(session.net);
+    clear_ways_of(sample, 1);
     CHECK(sample.complex.points.size() == before - 1);
     CHECK(largest_distance(sample) < 1e-12);
     for (const Region region : {0, 1}) {

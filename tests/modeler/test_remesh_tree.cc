@@ -10,10 +10,6 @@ namespace {
 
 using namespace maille::modeler::remeshing;
 
-Eigen::AlignedBox3d box_of(const Corners& corners) {
-    return Eigen::AlignedBox3d(corners[0]).extend(corners[1]).extend(corners[2]);
-}
-
 TEST_CASE("the tree finds the triangles whose boxes meet, after any changes") {
     const unsigned seed = 7;
     CAPTURE(seed);
